@@ -5,9 +5,12 @@ Each says by its type that it is meant as the number that it holds, unlike a flo
 
 from __future__ import annotations
 
+import operator
+from collections.abc import Callable
 from decimal import Decimal
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from functools import reduce
+from typing import TYPE_CHECKING, Any, cast
 
 from mpmath.ctx_mp_python import _constant
 from mpmath.libmp import from_man_exp, fzero, mpf_add, mpf_neg
@@ -15,26 +18,55 @@ from mpmath.libmp import from_man_exp, fzero, mpf_add, mpf_neg
 from intervals.complex import ComplexInterval
 from intervals.elementary.tightest import DOWN, UP, Raw
 from intervals.exact import decimal_down, decimal_up
+from intervals.functions import TABLE
 from intervals.interval import Interval, _make
 
 if TYPE_CHECKING:
     import flint
 
+_OF_SYMPY: dict[str, Callable[..., Interval]] = {
+    "Add": lambda *x: reduce(operator.add, x),
+    "Mul": lambda *x: reduce(operator.mul, x),
+    "Pow": Interval.pow,
+    "Abs": abs,
+    "Min": lambda *x: reduce(Interval.minimum, x),
+    "Max": lambda *x: reduce(Interval.maximum, x),
+    "atan2": Interval.atan2,
+}
+
 
 def interval(value: Any, *, precision: int | None = None) -> Interval:
     """Enclose a Decimal, an mpf of mpmath, an arb of python-flint, a number of sympy.
 
-    At `precision` bits it is the tightest enclosure. Without, it has 53, or as many as the number
-    has itself: a point then stays what it is, unless it is a Decimal. Infinities and NaN raise
-    ValueError, other types TypeError.
+    At `precision` bits it is the tightest enclosure, but of terms of sympy. Without, it has 53, or
+    as many as the number has itself: a point then stays what it is, unless it is a Decimal.
+    Infinities and NaN raise ValueError, other types TypeError.
     """
     if isinstance(value, Decimal):
         return Interval(value, precision=precision or 53)
-    if getattr(value, "is_Rational", False):  # sympy's
-        return Interval(Fraction(int(value.p), int(value.q)), precision=precision or 53)
+    if hasattr(value, "free_symbols") and not value.is_Float:
+        return _of_sympy(value, precision or 53)
     if hasattr(value, "_mpi_"):
         raise TypeError("mpmath's intervals are not rigorous: see unproved_mpi")
     return _enclosed(value, precision)
+
+
+def _of_sympy(x: Any, precision: int) -> Interval:
+    """Return an enclosure of a number of sympy, such as pi / sqrt(2), or of a closed interval."""
+    name = type(x).__name__
+    if x.is_Rational:
+        return Interval(Fraction(int(x.p), int(x.q)), precision=precision)
+    if name in ("Pi", "Exp1"):
+        return (Interval.pi if name == "Pi" else Interval.e)(precision=precision)
+    if name == "Interval" and not (x.left_open or x.right_open):
+        return _of_sympy(x.start, precision).hull(_of_sympy(x.end, precision))
+    if name == "Pow" and x.exp.is_Integer:
+        return _of_sympy(x.base, precision) ** int(x.exp)
+    operation = _OF_SYMPY.get(name) or (getattr(Interval, name) if name in TABLE else None)
+    if not operation or x.free_symbols:
+        raise TypeError(f"not a real number, or a closed interval, of sympy: {x!r}")
+    parts = [_of_sympy(part, precision) for part in x.args]
+    return cast("Interval", operation(*parts))
 
 
 def unproved_mpi(value: Any, *, precision: int | None = None) -> Interval:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from importlib import import_module
 from math import inf
-from typing import Any, NamedTuple, Protocol, Self, TypeVar, overload
+from typing import Any, NamedTuple, Protocol, Self, TypeVar, cast, overload
 
 _S = TypeVar("_S")
 
@@ -366,6 +366,4 @@ minimum, maximum = _function_of_two("minimum"), _function_of_two("maximum")
 
 def rootn(x: _N, n: int) -> _N:
     """Enclose the real n-th root over x: see Elementary.rootn."""
-    if not isinstance(x, Elementary):
-        raise TypeError(f"rootn takes an Interval, an IntervalArray or a Jet, not {x!r}")
-    return x.rootn(n)
+    return cast("_N", _with_methods("rootn", x).rootn(n))

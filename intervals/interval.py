@@ -18,7 +18,6 @@ from operator import index
 from typing import Any
 
 from mpmath.libmp import (
-    fone,
     from_int,
     from_man_exp,
     fzero,
@@ -34,27 +33,17 @@ from mpmath.libmp import (
     mpf_sub,
 )
 
-from intervals import _engine, display
-from intervals.elementary import tightest
+from intervals import _engine, display, ranges
 from intervals.elementary.constants import pi_fixed
-from intervals.elementary.steps import STEPS
-from intervals.elementary.tightest import DOWN, UP
+from intervals.elementary.tightest import DOWN, UP, Bounds
 from intervals.elementary.tightest import Raw as _Raw
 from intervals.errors import DomainError, Undecided
 from intervals.exact import Exact, fraction, pair, refuse_equality
-from intervals.functions import DOMAINS, TABLE, Elementary
-from intervals.raw import compare, dyadic, exact, extremes, from_bits, hull, literal, rounded
+from intervals.functions import DOMAINS, Elementary
+from intervals.raw import compare, dyadic, exact, extremes, from_bits, literal, rounded
 from intervals.relations import Overlap, Relations, overlap_state
 
 _ZERO: _Raw = fzero
-_ONE: _Raw = fone
-_MINUS_ONE: _Raw = mpf_neg(fone)
-_THREE: _Raw = from_int(3)
-_POINTS = {**tightest.FUNCTIONS, **STEPS}
-_DOMAINS = {  # the ends, and what mpf_cmp must reach there
-    name: (*(end if end is None else from_int(end) for end in domain[:2]), 1 - domain.closed)
-    for name, domain in DOMAINS.items()
-}
 _ordered_key = cmp_to_key(mpf_cmp)
 
 
@@ -323,12 +312,7 @@ class Interval(Relations[bool], Elementary):
             return Interval(1, precision=self.precision)
         if n < 0:
             return self._negative_power(n)
-        x = abs(self) if n % 2 == 0 else self
-        p = self.precision
-        low, high = tightest.integer_power(x._lo, n, p)
-        if x._lo != x._hi:
-            _, high = tightest.integer_power(x._hi, n, p)
-        return _make(low, high, p)
+        return (abs(self) if n % 2 == 0 else self)._with(ranges.integer_power, n)
 
     def _negative_power(self, n: int) -> Interval:
         """Return x^n, n < 0: decreasing on x > 0, and even or odd."""
@@ -336,11 +320,7 @@ class Interval(Relations[bool], Elementary):
             return (-self) ** n if n % 2 == 0 else -((-self) ** n)
         if not self.certainly_positive():
             raise DomainError("a negative power of an interval that contains 0")
-        exponent, p = from_int(n), self.precision
-        low, high = tightest.power(self._hi, exponent, p)
-        if self._lo != self._hi:
-            _, high = tightest.power(self._lo, exponent, p)
-        return _make(low, high, p)
+        return self._with(ranges.integer_power, n)
 
     def __rpow__(self, base: Fraction | int) -> Interval:
         if isinstance(base, float):  # which Fraction.__pow__ makes of itself
@@ -352,21 +332,18 @@ class Interval(Relations[bool], Elementary):
 
     # -- elementary functions ------------------------------------------------------------------
 
-    def _monotone(self, name: str) -> Interval:
-        if name in DOMAINS and not self._inside(name):
-            raise DomainError(f"{name} of an interval that leaves {DOMAINS[name]}")
-        left, right = self._lo, self._hi
-        if TABLE[name].falls:
-            left, right = right, left
-        low, high = _POINTS[name](left, self.precision)
-        if left != right:
-            _, high = _POINTS[name](right, self.precision)
-        return _make(low, high, self.precision)
+    def _with(self, range_of: Callable[..., Bounds], *details: Any) -> Interval:
+        """Return a range over this interval, at its precision."""
+        return _make(*range_of((self._lo, self._hi), *details, self.precision), self.precision)
 
-    def _inside(self, name: str) -> bool:
-        low, high, least = _DOMAINS[name]
-        above = low is None or mpf_cmp(self._lo, low) >= least
-        return above and (high is None or mpf_cmp(high, self._hi) >= least)
+    def _with_other(self, range_of: Callable[..., Bounds], other: Interval) -> Interval:
+        """Return a range over this interval and another one, at the larger precision."""
+        p = max(self.precision, other.precision)
+        return _make(*range_of((self._lo, self._hi), (other._lo, other._hi), p), p)
+
+    def _monotone(self, name: str) -> Interval:
+        p = self.precision
+        return _make(*ranges.monotone(name, (self._lo, self._hi), p), p)
 
     def sqrt(self) -> Interval:
         """Return the square root; the domain is x >= 0."""
@@ -377,22 +354,12 @@ class Interval(Relations[bool], Elementary):
 
     def rootn(self, n: int) -> Interval:
         """Return the real n-th root, n >= 1; the domain is x >= 0 for even n."""
-        if n < 1:
-            raise ValueError("a root has a degree of at least 1")
-        if n % 2 == 0 and self._lo[0]:
-            raise DomainError("an even root of an interval that leaves x >= 0")
-        low, _ = tightest.root(self._lo, n, self.precision)
-        return _make(low, tightest.root(self._hi, n, self.precision)[1], self.precision)
+        return self._with(ranges.root, n)
 
     def sincos(self) -> tuple[Interval, Interval]:
         """Return (sin X, cos X): values at the ends, and +-1 where a quarter turn is passed."""
-        p = self.precision
-        sin_low, cos_low, n_low = tightest.sincos(self._lo, p)
-        if self._lo == self._hi:
-            return _make(*sin_low, p), _make(*cos_low, p)
-        sin_high, cos_high, n_high = tightest.sincos(self._hi, p)
-        sin = _with_extrema(hull(sin_low, sin_high), n_low, n_high, 1, p)
-        return sin, _with_extrema(hull(cos_low, cos_high), n_low, n_high, 0, p)
+        sin, cos = ranges.sincos((self._lo, self._hi), self.precision)
+        return _make(*sin, self.precision), _make(*cos, self.precision)
 
     def sin(self) -> Interval:
         """Return the sine."""
@@ -403,21 +370,8 @@ class Interval(Relations[bool], Elementary):
         return self.sincos()[1]
 
     def tan(self) -> Interval:
-        """Return the tangent; DomainError where a pole is inside.
-
-        It increases between the poles, the odd multiples of pi/2. If X = [a, b] is shorter than pi
-        and a pole is inside, then tan b = tan(b - pi) < tan a, as b - pi and a are in one branch.
-        """
-        p, function = self.precision, tightest.FUNCTIONS["tan"]
-        low = high = function(self._lo, p)
-        if self._lo != self._hi:
-            high = function(self._hi, p)
-            short = mpf_lt(mpf_sub(self._hi, self._lo, 10, UP), _THREE)
-            if not (short and mpf_lt(low[1], high[0])):  # it may rise, and yet not be seen to
-                first, last = (tightest.sincos(x, 10)[2] for x in (self._lo, self._hi))
-                if (first + 1) // 2 != (last + 1) // 2:
-                    raise DomainError("tan of an interval that contains a pole")
-        return _make(low[0], high[1], p)
+        """Return the tangent; DomainError where a pole is inside."""
+        return self._with(ranges.tan)
 
     # -- functions of two variables ------------------------------------------------------------
 
@@ -428,57 +382,24 @@ class Interval(Relations[bool], Elementary):
         return other
 
     def atan2(self, x: Interval | Fraction | int) -> Interval:
-        """Return the angle in (-pi, pi] of the points (x, y), y in this interval.
-
-        On a box without the origin and off the cut the angle takes its extremes at two corners,
-        those at which a ray from the origin touches the box.
-        """
-        other = self._required(x)
-        y, x = self, other
-        p = max(y.precision, x.precision)
-        if y.contains_zero() and x.contains_zero():
+        """Return the angle in (-pi, pi] of the points (x, y), y in this interval."""
+        y, other = self, self._required(x)
+        if y.contains_zero() and other.contains_zero():
             raise DomainError("atan2 of a box that contains the origin")
-        left, low, high = x._lo[0], y._lo[0], not y._hi[0]
-        if left and low and high:
-            pi = Interval.pi(precision=p)
+        if other._lo[0] and y._lo[0] and not y._hi[0]:
+            pi = Interval.pi(precision=max(y.precision, other.precision))
             return pi.hull(-pi)
-        if low and (y._hi[0] or y._hi == _ZERO):
-            return -(-y).atan2(x)
-        first = (y._lo if not x._hi[0] else y._hi, x._hi) if not low else (y._lo, x._lo)
-        last = (y._hi if not left else y._lo, x._lo)
-        return _make(tightest.atan2(*first, p)[0], tightest.atan2(*last, p)[1], p)
+        if y._lo[0] and (y._hi[0] or y._hi == _ZERO):
+            return -(-y).atan2(other)
+        return y._with_other(ranges.angle, other)
 
     def hypot(self, other: Interval | Fraction | int) -> Interval:
         """Return sqrt(x^2 + y^2)."""
-        x, y = abs(self), abs(self._required(other))
-        p = max(x.precision, y.precision)
-        low, _ = tightest.hypot(x._lo, y._lo, p)
-        return _make(low, tightest.hypot(x._hi, y._hi, p)[1], p)
+        return abs(self)._with_other(ranges.length, abs(self._required(other)))
 
     def pow(self, exponent: Interval | Fraction | int) -> Interval:
-        """Return x^y for real y; the domain is x > 0, and x = 0 with y > 0.
-
-        x^y has its extremes at corners of the box, since y log x is linear in each factor; where
-        y has one sign, one corner each.
-        """
-        y = self._required(exponent)
-        if self._lo[0] or (self._lo == _ZERO and not y.certainly_positive()):
-            raise DomainError("pow leaves x > 0, or x = 0 with y > 0")
-        p = max(self.precision, y.precision)
-        if y._lo[0] and not y._hi[0]:
-            corners = [
-                tightest.power(a, b, p) for a in (self._lo, self._hi) for b in (y._lo, y._hi)
-            ]
-            return _make(
-                extremes([c[0] for c in corners])[0], extremes([c[1] for c in corners])[1], p
-            )
-        least, most = (self._hi, self._lo) if y._lo[0] else (self._lo, self._hi)
-        first = (least, y._hi if mpf_lt(least, _ONE) else y._lo)
-        last = (most, y._lo if mpf_lt(most, _ONE) else y._hi)
-        low, high = tightest.power(*first, p)
-        if first != last:
-            _, high = tightest.power(*last, p)
-        return _make(low, high, p)
+        """Return x^y for real y; the domain is x > 0, and x = 0 with y > 0."""
+        return self._with_other(ranges.power, self._required(exponent))
 
     def minimum(self, other: Interval | Fraction | int) -> Interval:
         """Return the range of min(x, y)."""
@@ -598,23 +519,6 @@ def _outward(lo: _Raw, hi: _Raw, precision: int) -> Interval:
 def _restore(low: tuple[int, int], high: tuple[int, int], precision: int) -> Interval:
     """Return the interval with these endpoints m 2^e (for pickle and copy)."""
     return _make(from_man_exp(*low), from_man_exp(*high), precision)
-
-
-def _with_extrema(
-    ends: tuple[_Raw, _Raw], n_low: int, n_high: int, top: int, precision: int
-) -> Interval:
-    """Add the maximum 1 at m pi/2, m = top mod 4, and the minimum -1 at m = top + 2 mod 4.
-
-    n_low and n_high are the floors of the ends over pi/2, so the multiples m pi/2 inside have
-    n_low < m <= n_high, or are the lower end itself, which is then 0. Between them both functions
-    are monotone.
-    """
-    low, high = ends
-    if (n_high - top) // 4 > (n_low - top) // 4:
-        high = _ONE
-    if (n_high - top - 2) // 4 > (n_low - top - 2) // 4:
-        low = _MINUS_ONE
-    return _make(low, high, precision)
 
 
 _engine.arrange(Interval)

@@ -98,13 +98,15 @@ _Image: TypeAlias = Callable[[Function, Box, Matrix, Matrix], list[Any]]
 
 
 @overload
-def krawczyk(f: Function, box: Sequence[Interval], *, steps: int = 60) -> SystemResult: ...
+def krawczyk(
+    f: Function, box: Interval | Sequence[Interval], *, steps: int = 60
+) -> SystemResult: ...
 @overload
 def krawczyk(f: Function, box: Sequence[IntervalArray], *, steps: int = 60) -> SystemResults: ...
-def krawczyk(f: Function, box: Box, *, steps: int = 60) -> SystemResult | SystemResults:
+def krawczyk(f: Function, box: Interval | Box, *, steps: int = 60) -> SystemResult | SystemResults:
     """Decide existence and uniqueness of zeros of f, and contract the box, by the operator K.
 
-    n Intervals are one box, at their precision; n IntervalArrays of the shape (N,) are N boxes.
+    n Intervals, or one, are a box, at their precision; n IntervalArrays of the shape (N,) are N.
     AT_LEAST_ONE is proved by signs on the faces, see `miranda`. Iteration ends when no side of a
     box shrinks by a quarter.
     """
@@ -112,12 +114,16 @@ def krawczyk(f: Function, box: Box, *, steps: int = 60) -> SystemResult | System
 
 
 @overload
-def newton_system(f: Function, box: Sequence[Interval], *, steps: int = 60) -> SystemResult: ...
+def newton_system(
+    f: Function, box: Interval | Sequence[Interval], *, steps: int = 60
+) -> SystemResult: ...
 @overload
 def newton_system(
     f: Function, box: Sequence[IntervalArray], *, steps: int = 60
 ) -> SystemResults: ...
-def newton_system(f: Function, box: Box, *, steps: int = 60) -> SystemResult | SystemResults:
+def newton_system(
+    f: Function, box: Interval | Box, *, steps: int = 60
+) -> SystemResult | SystemResults:
     """Do the same by the operator N; where 0 is not in A_ii it lies within K, but for rounding."""
     return _solve(f, box, _newton_image, steps)
 
@@ -127,9 +133,10 @@ def contract(f: Function, box: Box, steps: int) -> tuple[Mask, Mask, tuple[Any, 
     return _contract(f, box, _krawczyk_image, steps)[:3]
 
 
-def _solve(f: Function, box: Box, image: _Image, steps: int) -> SystemResult | SystemResults:
-    if isinstance(box, Interval):
-        raise TypeError("a box is a sequence of intervals, one for each variable")
+def _solve(
+    f: Function, box: Interval | Box, image: _Image, steps: int
+) -> SystemResult | SystemResults:
+    box = (box,) if isinstance(box, Interval) else box
     f = Formula(f, len(box))
     state = _contract(f, box, image, steps)
     some = np.asarray(False)

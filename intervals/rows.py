@@ -5,47 +5,34 @@ mode. If e is the largest exact candidate and x < e, then its own rounded value,
 neighbour of it and at most x, is x: so `outward`, which only asks that, makes an upper bound.
 """
 
-import json
 from collections.abc import Callable
-from contextlib import suppress
-from decimal import Decimal
-from fractions import Fraction
-from functools import lru_cache
-from math import frexp, inf, prod
+from math import prod
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from intervals import few
 from intervals.errors import DomainError
-from intervals.exact import fraction, no_decimal, pair, whole
 from intervals.rounding import (
-    ETA,
-    MAX,
-    ULP,
-    BeyondRange,
     Rows,
     all_of,
     constant,
-    float_down,
-    float_up,
     joined,
     outward,
     outward_sum,
-    towards,
 )
 
 _BLOCK = 16384  # elements at a time
-_FEW = 10  # intervals: they are done sooner without numpy
 _ZERO = constant(0.0)
-_HALF, _TAIL = 2.0**26, np.array((1 << 27) - 1)
-_LOW, _HIGH = 2.0**-400, 2.0**400
-_LEAST, _MOST = constant(_LOW), constant(_HIGH)
-_ZERO_INSIDE = "division by an interval that contains 0"
+_TAIL = np.array((1 << 27) - 1)
+_LEAST, _MOST = constant(few.LOW), constant(few.HIGH)
 
 
 def aligned(a: Rows, b: Rows) -> tuple[Rows, Rows]:
     """Give both the same number of axes, the missing element axes (length 1) on the left."""
+    if a.ndim == b.ndim:
+        return a, b
     return _with_axes(a, b.ndim), _with_axes(b, a.ndim)
 
 
@@ -69,10 +56,11 @@ def in_blocks(operation: Callable[..., Rows], *operands: Rows) -> Rows:
     are done one by one, sooner, and to the same bits, or exactly where the numbers are short.
     """
     first, ends = operands[0], _BY_ENDS.get(operation)
-    if ends and 0 < first.size <= 2 * _FEW and first.shape == operands[-1].shape:
-        columns = [column for x in operands for column in x.reshape(2, -1).tolist()]
-        with suppress(OverflowError):
-            return np.array([*zip(*map(ends, *columns), strict=True)]).reshape(first.shape)
+    if ends and 0 < first.size <= 2 * few.MOST and first.shape == operands[-1].shape:
+        try:
+            return few.one_by_one(ends, first, operands[-1])
+        except OverflowError:
+            pass
     with np.errstate(all="ignore"):
         return _in_blocks(operation, *operands)
 
@@ -143,7 +131,7 @@ def quotient(a: Rows, b: Rows) -> Rows:
 def dividends(a: Rows, b: Rows) -> tuple[Rows, Rows]:
     """Return both, aligned; DomainError if 0 is in a divisor."""
     if not all_of(np.minimum(b[0], b[1]) < _ZERO):
-        raise DomainError(_ZERO_INSIDE)
+        raise DomainError(few.ZERO_INSIDE)
     return aligned(a, b)
 
 
@@ -162,19 +150,11 @@ def _of_four(a: Rows, b: Rows, operation: Callable[[Rows, Rows], Rows], *, exact
 
 def _short(rows: Rows) -> bool:
     """Return whether the first and the last number have at most 26 bits: a guess at all of them."""
-    return bool(rows.size) and _is_half(rows.item(0)) and _is_half(rows.item(rows.size - 1))
+    return bool(rows.size) and few.is_half(rows.item(0)) and few.is_half(rows.item(rows.size - 1))
 
 
 def _exact_factors(a: Rows, b: Rows) -> bool:
     return _short(a) and _short(b) and _halves(a) and _halves(b)
-
-
-def _is_half(x: float) -> bool:
-    return frexp(x)[0] * _HALF % 1.0 == 0.0
-
-
-def _is_fit(x: float) -> bool:
-    return _is_half(x) and (x == 0.0 or _LOW < abs(x) < _HIGH)
 
 
 def _halves(rows: Rows) -> bool:
@@ -204,47 +184,7 @@ def _hull_of_four(p: Rows, q: Rows, r: Rows, s: Rows) -> Rows:
     return np.maximum(rows, others, out=rows)
 
 
-def _total(a: float, b: float, c: float, d: float) -> tuple[float, float]:
-    x, y = a + c, b + d
-    if not (x - a == c and x - c == a):
-        x += abs(x) * ULP
-    if not (y - b == d and y - d == b):
-        y += abs(y) * ULP
-    return _finite(x, y)
-
-
-def _product(a: float, b: float, c: float, d: float) -> tuple[float, float]:
-    p, q, r, s = a * c, b * d, a * d, b * c
-    if all(map(_is_fit, (a, b, c, d))):
-        return max(r, s, -p, -q), max(p, q, -r, -s)
-    return _outermost(p, q, r, s)
-
-
-def _quotient(a: float, b: float, c: float, d: float) -> tuple[float, float]:
-    if not (c < 0.0 or d < 0.0):
-        raise DomainError(_ZERO_INSIDE)
-    p, q, r, s = a / c, b / d, a / d, b / c
-    products = ((p, c, a), (q, d, b), (r, d, a), (s, c, b))
-    if all(_is_fit(x) and _is_fit(y) and x * y == z for x, y, z in products):
-        return max(r, s, -p, -q), max(p, q, -r, -s)
-    return _outermost(p, q, r, s)
-
-
-def _outermost(p: float, q: float, r: float, s: float) -> tuple[float, float]:
-    """Do `outward` for `_hull_of_four`, of numbers."""
-    x, y = max(r, s, -p, -q), max(p, q, -r, -s)
-    x += abs(x) * ULP + ETA
-    y += abs(y) * ULP + ETA
-    return _finite(x, y)
-
-
-def _finite(x: float, y: float) -> tuple[float, float]:
-    if not (x < MAX and y < MAX):  # nor NaN: infinities are done by arrays
-        raise OverflowError
-    return x, y
-
-
-_BY_ENDS = {total: _total, product: _product, quotient: _quotient}
+_BY_ENDS = {total: few.total, product: few.product, quotient: few.quotient}
 
 
 def magnitude(rows: Rows) -> Rows:
@@ -323,183 +263,3 @@ STEPS: dict[str, Callable[[Rows], Rows]] = {
     "round_ties_to_even": _step(lambda x: _rounded(x, away=False)),
     "round_ties_to_away": _step(lambda x: _rounded(x, away=True)),
 }
-
-
-# -- numbers into rows ---------------------------------------------------------------------------
-
-
-def scalar_rows(value: object) -> Rows | None:
-    """Return the tightest rows of an int, Fraction, Interval or array of ints; None for others.
-
-    A float, or an array of anything else, raises TypeError.
-    """
-    if isinstance(value, np.ndarray) and value.dtype.kind in "iu":
-        return integer_rows(value)
-    if isinstance(value, float | np.floating):
-        raise no_decimal(value, "from_floats")
-    if isinstance(value, np.ndarray):
-        raise TypeError("floats do not mix with intervals: use IntervalArray.from_floats")
-    if isinstance(value, np.generic) and whole(value) is None:  # else numpy asks again
-        raise TypeError(f"not an interval or an exact number: {value!r}")
-    if type(value) is int or type(value) is Fraction:
-        return _rational_rows(value)
-    if isinstance(value, int | Fraction | np.integer | Decimal) or _is_interval(value):
-        return np.array(_enclosure(value))
-    return None
-
-
-@lru_cache(maxsize=256)
-def _rational_rows(value: int | Fraction) -> Rows:
-    """Return the tightest rows of a number: the few constants of a formula come again and again."""
-    rows = np.array(_enclosure(value))
-    rows.setflags(write=False)
-    return rows
-
-
-def integer_rows(values: NDArray[Any]) -> Rows:
-    """Return the tightest rows of an array of ints."""
-    try:
-        return float_rows(values, values)
-    except ValueError:  # binary64 does not hold them all
-        return exact_rows(values)
-
-
-def _is_interval(value: object) -> bool:
-    """Return whether `value` has exact endpoints `inf` and `sup`, as an Interval has."""
-    if hasattr(value, "decoration"):
-        raise TypeError(f"{value} would lose its decoration: take its .interval")
-    return isinstance(getattr(value, "inf", None), Fraction)
-
-
-def exact_rows(values: Any) -> Rows:
-    """Return rows of (nested lists of) exact numbers and pairs, as `IntervalArray.from_exact`."""
-    if isinstance(values, np.ndarray) and not values.size:
-        return np.empty((2, *values.shape))
-    if isinstance(rows := getattr(values, "_rows", None), np.ndarray):
-        return rows
-    pairs = np.array(_nested(values), dtype=np.float64)
-    if pairs.size == 0:
-        pairs = pairs.reshape(*pairs.shape, 2)
-    return np.ascontiguousarray(np.moveaxis(pairs, -1, 0))
-
-
-def _nested(values: Any) -> Any:
-    """Replace the elements in nested lists by their pairs (-lower, upper)."""
-    if isinstance(values, str) and values.lstrip().startswith("["):
-        values = _from_text(values)
-    if isinstance(values, np.ndarray):
-        if _unmasked(values).dtype.kind == "m":
-            raise TypeError("spans of time are no numbers")
-        values = values.tolist()
-    if isinstance(values, list | range):
-        return [_nested(value) for value in values]
-    if not isinstance(values, tuple):
-        return _enclosure(values)
-    if len(values) != 2:
-        raise ValueError(f"a tuple is a pair (lower, upper), a list is an axis: {values!r}")
-    lower, upper = values
-    if _endpoint(lower, "inf") > _endpoint(upper, "sup"):
-        raise ValueError(f"reversed interval: {lower} > {upper}")
-    return (_enclosure(lower)[0], _enclosure(upper)[1])
-
-
-def _from_text(text: str) -> Any:
-    """Return the nested lists of pairs that `str` of an IntervalArray prints."""
-
-    try:
-        values = json.loads(text, parse_float=str, parse_int=str, parse_constant=str)
-        return _elements(values)
-    except ValueError:
-        raise ValueError(f"not intervals in nested brackets: {text[:40]!r}") from None
-
-
-def _elements(values: list[Any]) -> Any:
-    """Return one or two numbers as a pair, lists as an axis."""
-    if not any(isinstance(value, str) for value in values):
-        return [_elements(value) for value in values]
-    if len(values) > 2 or any(isinstance(value, list) for value in values):
-        raise ValueError("neither an interval nor an axis")
-    return values[0], values[-1]
-
-
-def _unmasked(values: NDArray[Any]) -> NDArray[Any]:
-    if isinstance(values, np.ma.MaskedArray):
-        raise TypeError("a masked array has no numbers where it is masked: take its .compressed()")
-    return values
-
-
-def _endpoint(value: Any, name: str) -> Fraction:
-    """Return the exact endpoint `name` of an Interval, or the exact number itself."""
-    if _is_interval(value):
-        end: Fraction = getattr(value, name)
-        return end
-    if isinstance(value, float | np.floating):
-        raise no_decimal(value, "from_floats")
-    return fraction(value)
-
-
-def _enclosure(value: Any) -> tuple[float, float]:
-    """Return (-lower, upper), the tightest, of an exact number or an Interval."""
-    if isinstance(value, str):
-        low, high = pair(value, None)
-    else:
-        low, high = _endpoint(value, "inf"), _endpoint(value, "sup")
-    return -towards(low, float_down), towards(high, float_up)
-
-
-def float_rows(lower: Any, upper: Any) -> Rows:
-    """Return rows of binary64 bounds, as `IntervalArray.from_floats`."""
-    low = high = _binary64(lower)
-    if upper is not lower:
-        low, high = np.broadcast_arrays(low, _binary64(upper))
-    if not (low <= high).all():
-        raise ValueError("bounds must be numbers or infinite, with lower <= upper")
-    if (low == inf).any() or (high == -inf).any():
-        raise BeyondRange("an interval holds a number")
-    return joined(-low, high)
-
-
-def _binary64(values: Any) -> NDArray[np.float64]:
-    """Return floats as an array, unchanged; ints that binary64 does not hold raise ValueError."""
-    if isinstance(values, np.ndarray) and _unmasked(values).dtype == np.float64:
-        return values
-    objects = np.asarray(values, dtype=object)
-    if not all(isinstance(x, float | int | np.floating | np.integer) for x in objects.flat):
-        raise TypeError("from_floats takes binary64 numbers only: use the constructor for others")
-    floats = objects.astype(np.float64)
-    if not (np.isnan(floats) | (floats == objects)).all():
-        raise ValueError("from_floats takes binary64 numbers only: one of these needs more bits")
-    return floats
-
-
-class End:
-    """An endpoint that binary64 need not hold, between its neighbours `down` <= it <= `up`.
-
-    A binary64 number x is below it if and only if x < up, and at most it if and only if x <= down.
-    """
-
-    __array_ufunc__ = None  # so that `array < End` comes here
-    __hash__ = None  # type: ignore[assignment]
-
-    def __init__(self, value: Fraction) -> None:
-        self.down, self.up = towards(value, float_down), towards(value, float_up)
-
-    def __gt__(self, x: Any) -> Any:
-        return x < self.up
-
-    def __ge__(self, x: Any) -> Any:
-        return x <= self.down
-
-    def __lt__(self, x: Any) -> Any:
-        return self.down < x
-
-    def __le__(self, x: Any) -> Any:
-        return self.up <= x
-
-    def __eq__(self, x: object) -> Any:
-        return (self.down == x) & (self.up == x)
-
-
-def ends(value: Any) -> tuple[End, End]:
-    """Return the endpoints of an exact number or an Interval, to be compared with arrays."""
-    return End(_endpoint(value, "inf")), End(_endpoint(value, "sup"))

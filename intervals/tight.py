@@ -18,28 +18,23 @@ from typing import Any
 
 import numpy as np
 
+from intervals.elementary.binary64.pair import NEXT, two_product, two_sum
 from intervals.rounding import MAX, Rows, all_of, constant, outward, require_nearest
 from intervals.rows import dividends, is_thin, nonnegative, powers
 
-_SPLIT, _NEXT = constant(2.0**27 + 1), constant(2.0**-53 * (1 + 2.0**-52))
 _SMALL, _LARGE = constant(2.0**-900), constant(2.0**900)
 
 
 def total(a: Rows, b: Rows) -> Rows:
     """Return the least rows that contain x + y for x in A, y in B."""
     require_nearest()
-    s = a + b
-    t = s - a
-    return _least(s, (a - (s - t)) + (b - t))
+    return _least(*two_sum(a, b))
 
 
 def product(a: Rows, b: Rows) -> Rows:
     """Return the least rows that contain x y for x in A, y in B."""
     require_nearest()
-    x, y = _corners(a, b)
-    p, error = _product(x, y)
-    known = _moderate(p) & _moderate(x) & _moderate(y)
-    return _hull(p, np.where((x == 0.0) | (y == 0.0), 0.0, np.where(known, error, np.nan)))
+    return _hull(*_products(*_corners(a, b)))
 
 
 def quotient(a: Rows, b: Rows) -> Rows:
@@ -47,10 +42,12 @@ def quotient(a: Rows, b: Rows) -> Rows:
     require_nearest()
     x, y = _corners(*dividends(a, b))
     q = x / y
-    p, error = _product(q, y)
+    p, error = two_product(q, y)
     rest = np.copysign(1.0, y) * ((x - p) - error)
     known = _moderate(p) & _moderate(q) & _moderate(x) & _moderate(y)
-    return _hull(q, np.where(x == 0.0, 0.0, np.where(known, rest, np.nan)))
+    if not all_of(known):
+        rest = np.where(x == 0.0, 0.0, np.where(known, rest, np.nan))
+    return _hull(q, rest)
 
 
 def square_root(rows: Rows) -> Rows:
@@ -58,7 +55,7 @@ def square_root(rows: Rows) -> Rows:
     require_nearest()
     x = np.abs(rows)
     root = np.sqrt(x)
-    p, error = _product(root, root)
+    p, error = two_product(root, root)
     rest = np.where(_moderate(x), (x - p) - error, np.where(x == 0.0, 0.0, np.nan))
     for part in (root, rest):
         np.negative(part[0], out=part[0, ...])
@@ -72,9 +69,16 @@ def power(rows: Rows, n: int) -> Rows:
 
 
 def _above(x: Rows, y: Rows) -> Rows:
-    p, error = _product(x, y)
+    return _least(*_products(x, y))
+
+
+def _products(x: Rows, y: Rows) -> tuple[Rows, Rows]:
+    """Return fl(x y) and its error, NaN where that is not known."""
+    p, error = two_product(x, y)
     known = _moderate(p) & _moderate(x) & _moderate(y)
-    return _least(p, np.where((x == 0.0) | (y == 0.0), 0.0, np.where(known, error, np.nan)))
+    if not all_of(known):
+        error = np.where((x == 0.0) | (y == 0.0), 0.0, np.where(known, error, np.nan))
+    return p, error
 
 
 def _corners(a: Rows, b: Rows) -> tuple[Rows, Rows]:
@@ -92,21 +96,18 @@ def _hull(values: Rows, errors: Rows) -> Rows:
 
     A value that is NaN stands for 0: see `rows`.
     """
-    values = np.where(np.isnan(values), 0.0, values)
+    if np.isnan(values).any():
+        values = np.where(np.isnan(values), 0.0, values)
     both, signed = np.stack((-values, values)), np.stack((-errors, errors))
     most = both.max(axis=1)
     return _least(most, np.where(both == most[:, np.newaxis], signed, -1.0).max(axis=1))
 
 
 def _least(rows: Rows, errors: Rows) -> Rows:
-    """Return the least bounds; those of `outward` where the error is NaN and the row finite.
-
-    For |y| >= 2^-900, y + u (1 + 2 u) |y| rounds to the number above y: Rump, Zimmermann, Boldo,
-    Melquiond 2009, Computing predecessor and successor in rounding to nearest.
-    """
+    """Return the least bounds; those of `outward` where the error is NaN and the row finite."""
     size = np.abs(rows)
     plain = size >= _SMALL
-    step = size * _NEXT
+    step = size * NEXT
     step *= errors > 0.0
     bounds = np.maximum(rows + step, -MAX)
     if not all_of(plain & (errors == errors)):  # noqa: PLR0124 - NaN
@@ -115,20 +116,6 @@ def _least(rows: Rows, errors: Rows) -> Rows:
         unknown = np.isnan(errors) & (size < np.inf)
         bounds = np.where(unknown, outward(rows.copy()), bounds)
     return bounds
-
-
-def _product(x: Rows, y: Rows) -> tuple[Rows, Rows]:
-    """Return fl(x y) and its error."""
-    (a, b), (c, d) = _halves(x), _halves(y)
-    p = x * y
-    return p, ((a * c - p) + a * d + b * c) + b * d
-
-
-def _halves(x: Rows) -> tuple[Rows, Rows]:
-    """Return h and l, of 26 bits, with x = h + l."""
-    scaled = _SPLIT * x
-    head = scaled - (scaled - x)
-    return head, x - head
 
 
 def _moderate(x: Rows) -> Any:

@@ -8,12 +8,12 @@ exactly one periodic orbit of least period 4 that begins at ...
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
+from copy import copy
 from fractions import Fraction
-from typing import Any
+from typing import Any, Self
 
-from intervals import Undecided, fraction
-from proofs.methods.grammar import GrammarError, canonical, name, names
+from intervals import Undecided
+from proofs.methods.grammar import GrammarError, canonical, exact, name, names
 from proofs.theorem import Theorem
 from proofs.trusted.certificate import Malformed, texts
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -24,7 +24,7 @@ Ends = Exact | Sequence[Exact]  # a number, or both ends of an interval
 Box = Mapping[str, Sequence[Exact]]  # by variables
 
 _DIGITS, _BITS = 12, 128  # of images
-_SEEDS = 120
+EFFORT = 3
 _POINTS, _PASSED, _LONGEST = 1500, 4, 8  # of a picture; periods that are looked for
 _SIDE = ("-3", "3")  # of a box where points are looked for, if none is given
 
@@ -36,7 +36,7 @@ class Map:
     unless `variables` says otherwise. parameters: exact numbers, or ranges (low, high): what is
     proved then holds for all of them. periods: of those variables that are angles. Raises
     ValueError, in a sentence, where that is no map; the methods raise `intervals.Undecided` where
-    nothing is proved.
+    nothing is proved. effort: each more doubles the points and candidates that are looked at.
     """
 
     def __init__(
@@ -64,6 +64,7 @@ class Map:
 
         self.functions, self.function = dict(functions), function
         self.box: dict[str, Sequence[Exact]] = {}
+        self.effort = EFFORT
         try:
             self._kernel = Derivation(self.functions).map(function)
         except (Malformed, Unproved) as error:
@@ -74,6 +75,16 @@ class Map:
     def variables(self) -> tuple[str, ...]:
         """The variables, in their order."""
         return self._kernel.variables
+
+    def at(self, **parameters: Ends) -> Self:
+        """Return the same with other values, or ranges, of some parameters."""
+        other = copy(self)
+        sides = {name: texts(ends_of(ends)) for name, ends in parameters.items()}
+        function = self.functions[self.function]
+        known = {**function.get("parameters", {}), **sides}
+        other._begin({self.function: {**function, "parameters": known}}, self.function)
+        other.box, other.effort = dict(self.box), self.effort
+        return other
 
     @property
     def ranges(self) -> tuple[str, ...]:
@@ -120,17 +131,16 @@ class Map:
 
         longest: the last iterate that is looked at.
         """
-        from proofs.methods.shifts import find_horseshoe
+        from proofs.methods.shifts import Candidates, find_horseshoe
 
         file, reason = self._derivation(), Undecided("nothing was looked at")
         saddles: list[Any] = []
         for power in range(1, longest + 1):
             for cycle in self._cycles(power, box):
                 saddles += list(cycle.points) if cycle.is_saddle else []
+            candidates = Candidates(saddles, self.region(box), power, self._share)
             try:
-                return _theorem(
-                    file, find_horseshoe(file, self.function, saddles, self.region(box), power)
-                )
+                return _theorem(file, find_horseshoe(file, self.function, candidates))
             except Undecided as error:
                 reason = error
         raise reason
@@ -143,7 +153,53 @@ class Map:
         sides = self.region(box)
         return _theorem(file, [prove_all_orbits(file, self.function, period, sides)])
 
+    def branches(self, **parameter: Ends) -> Theorem:
+        """Follow the fixed points that are found at the low end of a parameter's range, up to high.
+
+        branches(g=("0.7", "0.8")): zeros of F(x) - x as graphs over the parameter; each ends where
+        no proof is found, as at a fold.
+        """
+        from proofs.methods.branches import branches
+
+        (moving,) = self._moving(parameter, 1)
+        file = self.at(**parameter)._derivation()
+        file = branches(file, self.function, moving, self.region())
+        return _theorem(file, [*file.steps])
+
+    def folds(self, **parameters: Ends) -> Theorem:
+        """Follow curves of fixed points with the multiplier 1 over the second of two parameters.
+
+        folds(g=("0.8", "1"), e=("0.4", "0.6")): points are looked for at the low end of the second.
+        """
+        return self._curves(1, parameters)
+
+    def flips(self, **parameters: Ends) -> Theorem:
+        """Do as `folds` for the multiplier -1."""
+        return self._curves(-1, parameters)
+
     # -- what they share ---------------------------------------------------------------------------
+
+    def _curves(self, multiplier: int, parameters: Mapping[str, Ends]) -> Theorem:
+        from proofs.methods.branches import curves
+
+        one, two = self._moving(parameters, 2)
+        file = self.at(**parameters)._derivation()
+        file = curves(file, self.function, (one, two), multiplier, self.region())
+        return _theorem(file, [*file.steps])
+
+    def _moving(self, parameters: Mapping[str, Ends], count: int) -> list[Any]:
+        from proofs.methods.branches import Moving
+
+        known = {name: 0 for each in self.functions.values() for name in each.get("parameters", {})}
+        if unknown := sorted({*parameters} - {*known}):
+            raise ValueError(f"{unknown[0]} is none of the parameters {', '.join(known)}")
+        if len(parameters) != count:
+            raise ValueError(f"ranges of {count} parameters are expected, as in g=('0.7', '0.8')")
+        return [Moving(each, ends_of(value)) for each, value in parameters.items()]
+
+    @property
+    def _share(self) -> float:
+        return float(2.0 ** (self.effort - EFFORT))
 
     @property
     def _sampled(self) -> Any:
@@ -158,12 +214,10 @@ class Map:
 
     def _proved(self, cycles: Sequence[Any], otherwise: str) -> Theorem:
         """Return the theorem about those of some orbits that are proved."""
-        from proofs.methods.newton import prove_orbit
+        from proofs.methods.newton import prove_orbits
 
-        file, steps = self._derivation(), []
-        for cycle in cycles:
-            with suppress(Unproved):
-                steps.append(prove_orbit(file, self.function, cycle))
+        file = self._derivation()
+        steps = prove_orbits(file, self.function, cycles)
         if not steps:
             raise Undecided(otherwise)
         return _theorem(file, steps)
@@ -179,7 +233,7 @@ class Map:
         if near:
             starts = as_points([[exact(state[each]) for each in self.variables] for state in near])
         else:
-            starts = seeds(sampled, self.region(box), _SEEDS * period)
+            starts = seeds(sampled, self.region(box), int(sampled.starts * period * self._share))
         return cycles(sampled, period, starts)
 
     def sample(self) -> Any:
@@ -263,11 +317,3 @@ def ends_of(values: Ends) -> Range:
     if low > high:
         raise ValueError(f"interval reversed: {show(low)} > {show(high)}")
     return low, high
-
-
-def exact(value: Exact) -> Fraction:
-    """Return an exact number; a float raises with the hint to write a text."""
-    if isinstance(value, float):
-        plain = float(value)  # numpy's shows its type
-        raise TypeError(f'{plain} is a float, and not that decimal: write it as "{plain}"')
-    return fraction(value)

@@ -21,7 +21,8 @@ from html import escape
 
 from intervals import Undecided, decimal_bounds
 from intervals.exact import whole
-from proofs.map import Ends, Exact, ends_of, exact
+from proofs.map import Ends, Exact, ends_of
+from proofs.methods.grammar import exact
 from proofs.motion.digits import MOST_DIGITS
 from proofs.motion.system import System
 from proofs.motion.witness import HORIZON

@@ -18,9 +18,10 @@ from typing import Any, Self
 from intervals import Undecided
 from proofs.map import Ends, Map, ends_of, optional
 from proofs.methods.grammar import GrammarError, canonical, name
+from proofs.methods.orders import FirstOrder, first_order
 from proofs.theorem import Theorem
 
-_HEAD = {"variables", "time", "motion", "impact"}
+_HEAD = {"variables", "time", "motion"}
 _ADVICE = {  # what a reason means in the motion, and the next step
     "the gap is < 0 right after launch": "the mass is pressed against a wall, where it rests or "
     "sticks, or the state is one before an impact; give one after it, with which the gap opens",
@@ -32,7 +33,8 @@ _ADVICE = {  # what a reason means in the motion, and the next step
     "another gap": "two walls may be hit at once; give fewer states",
     "the impact is not": "the motion may touch the wall there; give fewer states",
 }
-_MORE = {"title", "source", "units", "parameters", "periods", "region"}
+_MORE = {"title", "source", "units", "parameters", "periods", "region", "flow", "impact", "end"}
+_END = {"time", "section", "direction", "count"}
 
 
 class System(Map):
@@ -40,13 +42,14 @@ class System(Map):
 
     With one [[impact]] the map takes the state after an impact to that after the next. With several
     walls it takes a state after an impact with the first wall to that after the next one, each of
-    the walls being hit once, in the order of the file, or in that of `around`. All that `Map`
-    proves is proved about it; `impact` has the time as well. Make one with `System.read` or
-    `System.example`.
+    the walls being hit once, in the order of the file, or in that of `around`. With [end] in the
+    place of impacts the map goes to a time, or to a section. With flow = "validated" the equations
+    need no closed form: the checker takes Taylor steps itself. All that `Map` proves is proved
+    about it; `impact` has the time as well. Make one with `System.read` or `System.example`.
     """
 
     def __init__(self, file: Mapping[str, Any], /, **parameters: Ends) -> None:
-        self._file = _Read(file, parameters)
+        self._file, self._given = _Read(file, parameters), dict(parameters)
         self.title = str(file.get("title", ""))
         self.notes = {key: str(file[key]) for key in ("source", "units") if key in file}
         self._turn(range(len(self._file.impacts)))
@@ -55,7 +58,7 @@ class System(Map):
         pairs = [*zip(walls, (*walls[1:], walls[0]), strict=True)]
         names = ["P" if len(self.walls) == 1 else f"P{i + 1}{j + 1}" for i, j in pairs]
         functions = {
-            which: self._file.flight(i, j) for which, (i, j) in zip(names, pairs, strict=True)
+            which: self._file.map(i, j) for which, (i, j) in zip(names, pairs, strict=True)
         }
         if len(names) > 1:
             functions["R"] = {"maps": names}
@@ -75,6 +78,12 @@ class System(Map):
             raise ValueError(f"walls are expected, of {', '.join(self.walls)}")
         other = copy(self)
         other._turn([self.walls.index(each) for each in walls])
+        return other
+
+    def at(self, **parameters: Ends) -> Self:
+        """Return the same with other values, or ranges, of some parameters."""
+        other = type(self)(self._file.file, **{**self._given, **parameters})
+        other.box, other.effort = dict(self.box), self.effort
         return other
 
     @classmethod
@@ -114,7 +123,7 @@ class System(Map):
             raise ValueError(f"no wall {wall!r}; there are {', '.join(self.walls)}")
         before, reasons = self.walls.index(wall) if wall else 0, []
         for after in range(len(self.walls)):
-            timed = Derivation({"Impact": self._file.flight(before, after, timed=True)})
+            timed = Derivation({"Impact": self._file.map(before, after, timed=True)})
             try:
                 return self._image(timed, "Impact", state)
             except Undecided as error:
@@ -142,36 +151,65 @@ class _Read:
         for each, value in self.parameters.items():
             if isinstance(value, float) or value in (None, ""):
                 raise GrammarError(f'the parameter {each} is no text: write {each} = "{value}"')
-        self.impacts = [_table(each, "impact") for each in _list(file["impact"], "impact")]
+        if file.get("flow", "closed") not in ("closed", "validated"):
+            raise GrammarError('flow is "validated", or "closed", which it is without this key')
+        self.is_validated = file.get("flow") == "validated"
+        if "end" in file and ("impact" in file or not self.is_validated):
+            raise GrammarError('[end] is in the place of [[impact]], and needs flow = "validated"')
+        ends = [file["end"]] if "end" in file else _list(file.get("impact", []), "impact")
+        self.impacts = [_table(each, "impact") for each in ends]
         self.region = _table(file.get("region", {}), "region")
         if not self.impacts:
-            raise GrammarError("one [[impact]] at least is expected")
+            raise GrammarError("one [[impact]] at least, or an [end], is expected")
         self.walls = tuple(str(each.get("wall", k + 1)) for k, each in enumerate(self.impacts))
         if len({*self.walls}) < len(self.walls):
             raise GrammarError("two walls have one name")
         self._motions: dict[int, list[dict[str, Any]]] = {}
 
-    def flight(self, before: int, after: int, timed: bool = False) -> dict[str, Any]:
-        """Return the flight from one wall to another as a certificate has it.
+    def map(self, before: int, after: int, timed: bool = False) -> dict[str, Any]:
+        """Return the flight or flow from one wall to another as a certificate has it.
 
         timed: with the time as a last value.
         """
         impact = self._impact(after)
         gaps = [impact, *(self._impact(k) for k in range(len(self.impacts)) if k != after)]
         values = [self._formula(impact[each], f"{each} after the impact") for each in self.state]
+        values += [self.time] if timed else []
         if before not in self._motions:
             self._motions[before] = [
                 self._motion(name(each), _table(motion, each), self._here(before))
                 for each, motion in _table(self.file["motion"], "motion").items()
             ]
-        return {
+        head = {
             "variables": self.state,
             **optional(self._here(before), self.file.get("periods", {})),
             "time": self.time,
-            "motion": self._motions[before],
-            "gaps": [self._formula(each["gap"], "a gap") for each in gaps],
-            "values": [*values, *([self.time] if timed else [])],
         }
+        if not self.is_validated:
+            ends = [self._formula(each["gap"], "a gap") for each in gaps]
+            return {**head, "motion": self._motions[before], "gaps": ends, "values": values}
+        system = first_order(self._motions[before], self.time)
+        return {
+            **head,
+            "state": system.state,
+            "field": system.field,
+            "start": system.start,
+            "end": self._end(system, gaps),
+            "values": [*map(system.formula, values)],
+        }
+
+    def _end(
+        self, system: FirstOrder, gaps: Sequence[Mapping[str, Any]]
+    ) -> dict[str, str | list[str]]:
+        end = gaps[0]
+        if "end" not in self.file:
+            texts = [self._formula(each["gap"], "a gap") for each in gaps]
+            return {"gaps": list(map(system.formula, texts))}
+        if "time" in end:
+            return {"time": system.formula(self._formula(end["time"], "the time"))}
+        section = system.formula(self._formula(end["section"], "the section"))
+        count, direction = str(end.get("count", 1)), str(end.get("direction", "-"))
+        return {"section": section, "direction": direction, "count": count}
 
     def _here(self, wall: int) -> dict[str, Ends]:
         """Return the parameters, and what else has a value after an impact with a wall."""
@@ -179,17 +217,19 @@ class _Read:
         return {**self.parameters, **{name(each): value for each, value in own.items()}}
 
     def _impact(self, wall: int) -> Mapping[str, Any]:
-        impact, keys = self.impacts[wall], {"gap", "wall", "at", *self.state}
+        impact, which = self.impacts[wall], "end" if "end" in self.file else "impact"
+        keys = {*self.state, *(_END if which == "end" else {"gap", "wall", "at"})}
         if unknown := sorted({*impact} - keys):
-            raise GrammarError(f"unknown key {unknown[0]!r} of impact; keys are {_listed(keys)}")
-        if missing := [each for each in ("gap", *self.state) if each not in impact]:
-            raise GrammarError(f"[[impact]] has no {missing[0]!r}")
+            raise GrammarError(f"unknown key {unknown[0]!r} of {which}; keys are {_listed(keys)}")
+        first = "gap" if which == "impact" else "time" if "time" in impact else "section"
+        if missing := [each for each in (first, *self.state) if each not in impact]:
+            raise GrammarError(f"[[{which}]] has no {missing[0]!r}")
         return impact
 
     def _motion(
         self, which: str, motion: Mapping[str, Any], parameters: Mapping[str, Ends]
     ) -> dict[str, Any]:
-        keys = {"equation", "start", "form"}
+        keys = {"equation", "start", *(() if self.is_validated else ("form",))}
         if unknown := sorted({*motion} - keys):
             raise GrammarError(f"unknown key {unknown[0]!r} of {which}; keys are {_listed(keys)}")
         for key in ("equation", "start"):
@@ -203,6 +243,8 @@ class _Read:
                 f"the equation of {which} begins {wanted} =, as {len(start)} numbers start it"
             )
         equation = self._formula(right, f"the equation of {which}")
+        if self.is_validated:
+            return {"name": which, "equation": equation, "start": start}
         if "form" in motion:
             form = self._formula(motion["form"], f"the form of {which}")
         else:

@@ -39,6 +39,13 @@ class Theorem:
 
     def __str__(self) -> str:
         """Return them in words, a line each, after the map that all are about."""
+        return self.text(len(self))
+
+    def text(self, most: int) -> str:
+        """Return so many of them in words, and how many more there are."""
+        if len(self) > most:
+            more = f"- and {len(self) - most} more of this kind, in the certificate"
+            return f"{Theorem(self.conclusions[:most], '')}\n{more}"
         lines = [each.sentence if each.place is None else told([each]) for each in self.conclusions]
         shared = _shared(lines).rpartition(": ")[0] if len(lines) > 1 else ""
         if not shared:

@@ -34,13 +34,14 @@ def pytest_configure(config):
 def pytest_collection_modifyitems(config, items):
     """Have all that is long be slow as well: `-m 'not slow'` takes the place of 'not long'.
 
-    Of the cases of one test, the quick part takes the first and the last.
+    Of the cases of one test, the quick part takes the first and the last, of tables marked `every`
+    all.
     """
     cases = {}
     for item in items:
         if item.get_closest_marker("long"):
             item.add_marker(pytest.mark.slow)
-        if not item.get_closest_marker("slow"):
+        if not (item.get_closest_marker("slow") or item.get_closest_marker("every")):
             cases.setdefault(item.nodeid.partition("[")[0], []).append(item)
     if EFFORT.quick:
         left = {case for every in cases.values() for case in every[1:-1]}

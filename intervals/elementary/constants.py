@@ -8,8 +8,6 @@ from collections.abc import Callable
 from functools import lru_cache
 from typing import TypeAlias
 
-from mpmath.libmp import MPZ
-
 Constant: TypeAlias = Callable[[int], int]  # bits -> the floor in fixed point
 
 
@@ -74,6 +72,8 @@ def _settle(terms: tuple[tuple[int, int], ...], sign: int, bits: int) -> int:
             error += abs(weight) * units
         low, high = (total - error) >> guard, (total + error) >> guard
         if low == high:
+            from mpmath.libmp import MPZ  # which others of this folder need anyway
+
             floor: int = MPZ(low)
             return floor
         guard *= 2

@@ -22,7 +22,7 @@ from proofs.shell.entry import USAGE_ERROR
 from proofs.shell.files import check_folder, check_targets, refusing, write_target
 from proofs.shell.screen import say
 
-SUBJECTS = ("all", "horseshoe", "limit", "precision", "operations", "ledger")
+SUBJECTS = ("all", "horseshoe", "limit", "precision", "operations", "arrays", "ledger")
 EXAMPLES = """
 examples:
   python -m proofs benchmark
@@ -30,13 +30,15 @@ examples:
   python -m proofs benchmark precision --out diagrams --json precision.json
   python -m proofs benchmark precision --codac-python ~/codac/bin/python
 
-all: horseshoe, operations, ledger and precision.
+all: horseshoe, operations, arrays, ledger and precision.
 horseshoe: the main job beside bare imports and a script in python-flint; its bounds of f' beside
 python-flint. limit: the first of these alone.
 precision: time against error: bounds of f' by natural, mean-value and Taylor forms and by
 monotonicity, flight times beside algorithm A.1 and an ODE solver. Peers do the same work; fitted
 orders; diagrams with --out.
 operations: single ones of Interval and of short IntervalArrays beside python-flint and mpmath.iv.
+arrays: operations of 200,000 intervals beside the packages crival and pyintval, where they are
+installed, and widths.
 ledger: all claims, made anew and with nothing changed; 30 digits of two dimensions.
 
 With --out the report is written as benchmark.md, benchmark.json and, where matplotlib is installed,
@@ -48,13 +50,15 @@ exit status: 0 every target was reached, 1 one was missed or could not be measur
 
 def measure(options: Namespace, tell: Tell) -> Iterator[Section]:
     """Measure the subject."""
-    from proofs.benchmark import horseshoe, operations, precision
+    from proofs.benchmark import arrays, horseshoe, operations, precision
 
     subject, mode = options.subject, options.mode
     if subject in ("all", "horseshoe", "limit"):
         yield horseshoe.limits(mode, tell)
     if subject in ("all", "operations"):
         yield operations.measure(mode, tell)
+    if subject in ("all", "arrays"):
+        yield arrays.measure(mode, tell)
     if subject in ("all", "ledger"):
         yield horseshoe.ledger(mode, tell)
     if subject == "horseshoe":

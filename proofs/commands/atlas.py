@@ -1,6 +1,7 @@
-"""The plane of parameters in cells, with what is proved at all oscillators of each.
+"""A plane of two parameters in cells, with what is proved at all systems of each.
 
-An adaptive quadtree of boxes of (eta, nu): each cell has a proof of what is asked, or of its
+The parameters are (eta, nu) of the paper's oscillator, or by --range any two of a system or of a
+map of your own. An adaptive quadtree of boxes: each cell has a proof of what is asked, or of its
 opposite, or is cut in four down to the depth; what is left is undecided. DIR/atlas.jsonl has a
 line for each cell, with its certificate; a run that was ended in any way goes on where it was.
 """
@@ -20,6 +21,8 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
+from proofs.commands.system import add_subject, subject
+from proofs.map import ends_of
 from proofs.plane import summary
 from proofs.plane.head import executor, run
 from proofs.plane.store import LINES, Held, Store, file_of, key_of, opened
@@ -28,12 +31,13 @@ from proofs.shell.cli import Parser, heard, number, progress, share, whole
 from proofs.shell.files import check_folder, check_targets, write_target, writing
 from proofs.shell.screen import say
 from proofs.trusted.atlas import DEEPEST, Region, proved
-from proofs.trusted.certificate import Malformed, box_to_json
+from proofs.trusted.certificate import Malformed, parse, texts
 from proofs.trusted.kernel.meter import DEFAULT
 from proofs.trusted.numbers import Range
-from proofs.trusted.questions import QUESTIONS
+from proofs.trusted.questions import OF_MAPS, QUESTIONS
+from proofs.trusted.subjects import Oscillators, Systems
 from proofs.trusted.verdicts import Verdict
-from proofs.trusted.verify import Rejected, check
+from proofs.trusted.verify import Rejected
 
 FOLDER = Path("runs/atlas")
 _DEPTH, _CHUNK, _MOST_JOBS = 5, 16, 1000
@@ -54,6 +58,8 @@ examples:
   python -m proofs atlas --eta 0.2 0.22 --nu -0.22 -0.2 --ask attractor --depth 6 --jobs 2
   python -m proofs atlas --eta 0.2 0.5 --nu 0.2 0.5 --ask orbits --epsilon 0.3 --depth 7
   python -m proofs atlas --eta 0.212 0.216 --nu -0.202 -0.198 --ask entropy:3
+  python -m proofs atlas mine.toml --range g 0.05 0.2 --range e 0.3 0.7 --ask orbits:2 --out runs/b
+  python -m proofs atlas --map "1 - a*x^2 + y" "b*x" --range a 1 2 --range b 0 0.3 --ask stable:1
   python -m proofs atlas --out runs/atlas --cell 0.2121 -0.2
   python -m proofs atlas --out runs/atlas --lines
   python -m proofs check runs/atlas/atlas.jsonl
@@ -64,6 +70,7 @@ def main(arguments: list[str] | None = None) -> int:
     """Make an atlas, go on with one, or look up a cell; return the exit status."""
     parser = _parser()
     options = parser.parse_args(arguments)
+    options.parser = parser
     region = _region(parser, options)
     if options.lines and options.json:
         parser.error("--lines has no machine form: leave out --json")
@@ -89,9 +96,13 @@ def _parser() -> Parser:
     parser = Parser("proofs atlas", __doc__, EPILOG)
     parser.add_argument("--eta", type=number, nargs=2, metavar=("A", "B"), help="frequency ratios")
     parser.add_argument("--nu", type=number, nargs=2, metavar=("A", "B"), help="amplitudes -beta/p")
+    add_subject(parser)
+    ranges = "two parameters of it, and from where to where"
+    parser.add_argument("--range", nargs=3, action="append", metavar=("P", "A", "B"), help=ranges)
     restitution = "coefficient of restitution, one or a range; without it impacts are plastic"
     parser.add_argument("--epsilon", type=number, nargs="+", metavar="X", help=restitution)
-    parser.add_argument("--ask", metavar="QUESTION", help=f"one of {', '.join(QUESTIONS)}")
+    questions = f"one of {', '.join(QUESTIONS)}; of other systems {OF_MAPS}"
+    parser.add_argument("--ask", metavar="QUESTION", help=questions)
     depth = f"how often cells are cut at most (default {_DEPTH})"
     read = whole("a depth", DEEPEST, 0)
     parser.add_argument("--depth", type=read, default=_DEPTH, metavar="D", help=depth)
@@ -106,7 +117,7 @@ def _parser() -> Parser:
     )
     cell = "say what is proved in the cell that holds this point, and write its certificate"
     looking = parser.add_mutually_exclusive_group()
-    looking.add_argument("--cell", type=number, nargs=2, metavar=("ETA", "NU"), help=cell)
+    looking.add_argument("--cell", type=number, nargs=2, metavar=("A", "B"), help=cell)
     lines = f"write {LINES} of what there is, and look at no cell"
     looking.add_argument("--lines", action="store_true", help=lines)
     share(parser, "--out", "--json", "--quiet")
@@ -125,14 +136,32 @@ def _executor(text: str) -> str:
 def _region(parser: Parser, options: Namespace) -> Region | None:
     """Return the region asked for; None where an atlas that is there is meant."""
     given = [options.eta, options.nu, options.ask]
-    if not any((*given, options.epsilon)):
-        return None
-    if not all(given):
-        parser.error("--eta, --nu and --ask go together")
+    own = [options.file, options.example, options.map, options.range]
     try:
-        return Region(tuple(options.eta), tuple(options.nu), options.ask, _epsilon(options.epsilon))
+        if any(own):
+            if any((options.eta, options.nu, options.epsilon)):
+                parser.error("--eta, --nu and --epsilon are the oscillator's, without FILE")
+            return _own_region(parser, options)
+        if not any((*given, options.epsilon)):
+            return None
+        if not all(given):
+            parser.error("--eta, --nu and --ask go together")
+        sides = tuple(options.eta), tuple(options.nu)
+        return Region(*sides, options.ask, Oscillators(_epsilon(options.epsilon)))
     except ValueError as failure:
         parser.error(str(failure))
+
+
+def _own_region(parser: Parser, options: Namespace) -> Region:
+    """Return the region of a system's or a map's parameters that is asked for."""
+    if not options.ask or len(options.range or ()) != 2:
+        parser.error("of a system --ask and two times --range P A B are expected")
+    sides = [(name, ends_of((low, high))) for name, low, high in options.range]
+    system = subject(options, dict(sides))
+    (one, first), (two, second) = sides
+    where = tuple(system.region())
+    made = Systems(system.functions, system.function, (one, two), where)
+    return Region(first, second, options.ask, made)
 
 
 def _epsilon(given: list[Fraction] | None) -> Range | None:
@@ -204,15 +233,16 @@ def _show_cell(parser: Parser, options: Namespace, store: Store) -> int:
     cell = summary.at(store, *options.cell)
     if cell is None:
         parser.error("no cell of this atlas holds the point")
+    sides = store.region.sides(cell.key)
     path, verdict, says = None, cell.verdict, cell.conclusion
     if cell.certificate is not None:  # whatever the store says of it
-        verdict, _, says = proved(store.region, cell.key, check(cell.text))
+        verdict, _, says = proved(store.region, cell.key, parse(cell.text))
         path = options.out / file_of(cell.key)
         with writing(options.out) as put:
             put(path.name, cell.text)
     made = {
         "cell": cell.key,
-        "box": box_to_json(store.region.box(cell.key)),
+        "box": dict(zip(store.region.names, map(texts, sides), strict=True)),
         "verdict": verdict,
         "conclusion": says,
         "certificate": None if path is None else str(path),

@@ -182,6 +182,63 @@ def _systems() -> list[Published]:
             ],
             ["curves of grazing, folds and flips, and their tangency"],
         ),
+        *_flows(),
+    ]
+
+
+def _flows() -> list[Published]:
+    """Return the systems whose flow has no closed form."""
+    roessler, lorenz = System.example("roessler"), System.example("lorenz")
+    oscillator, duffing = System.example("van-der-pol"), System.example("duffing-wall")
+    stiff = System.example("van-der-pol", m="2")
+    return [
+        _of(
+            "roessler",
+            roessler,
+            {
+                "orbits-1": lambda: roessler.orbits(1),
+                "orbits-2": lambda: roessler.orbits(2),
+                "orbits-3": lambda: roessler.orbits(3),
+            },
+            [
+                "The map is the first return to the half plane x = 0, x rising. In the direction "
+                "that contracts a turn takes distances to 10^-11 of themselves or less.",
+            ],
+            [
+                "that there are no other orbits of these periods",
+                "a horseshoe: covering relations of wide sets need more work than a file is given "
+                "by default",
+                "an attractor: no rule says that an image lies in the interior of a box",
+            ],
+        ),
+        _of(
+            "lorenz",
+            lorenz,
+            {"orbits-2": lambda: lorenz.orbits(2), "orbits-3": lambda: lorenz.orbits(3)},
+            [
+                "Periodic orbits are called by words in A and B in the literature, for turns about "
+                "the two outer equilibria. As floating point sees them, the orbit of period 2 is "
+                "AB, those of period 3 are AAB and ABB.",
+            ],
+            ["that there are no other orbits of these periods", "an attractor"],
+        ),
+        _of(
+            "van-der-pol",
+            oscillator,
+            {"stable": lambda: oscillator.stable(1), "stable-2": lambda: stiff.stable(1)},
+            ["For each damping m > 0 there is exactly one limit cycle, by Lienard's theorem."],
+            ["that all other motions but rest come to it"],
+        ),
+        _of(
+            "duffing-wall",
+            duffing,
+            {
+                "impact": lambda: duffing.impact(a="3.3", v="1.1"),
+                "stable": lambda: duffing.stable(1),
+            },
+            ["The system is this file's: a hardening spring, a harmonic force, a wall at rest."],
+            ["orbits that hit the wall more than once a period", "a horseshoe: none is found"],
+        ),
     ]
 
 

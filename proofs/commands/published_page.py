@@ -63,11 +63,7 @@ def page(published: Published, theorems: Mapping[str, Theorem]) -> str:
 
 def _told(proved: Theorem) -> list[str]:
     """Return the conclusions of a certificate; of many orbits the first ones, and a count."""
-    kept = proved.conclusions[:_MOST]
-    lines = ["```text", str(Theorem(kept, "")), "```", ""]
-    if rest := proved.conclusions[_MOST:]:
-        lines += [f"The certificate has {len(rest)} more of this kind.", ""]
-    return lines
+    return ["```text", proved.text(_MOST), "```", ""]
 
 
 def picture(published: Published, theorems: Mapping[str, Theorem]) -> str:

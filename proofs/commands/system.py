@@ -14,25 +14,41 @@ if __name__ == "__main__":
 import json
 import re
 from argparse import ArgumentTypeError, Namespace
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from fractions import Fraction
+from functools import partial
 from pathlib import Path
 from time import monotonic
-from typing import Any, NamedTuple
+from types import MappingProxyType
+from typing import Any, NamedTuple, TypeVar
 
 from intervals import Undecided
-from proofs.map import Map
-from proofs.shell.cli import Parser, heard, number, progress, share
+from proofs.map import EFFORT, Ends, Map
+from proofs.shell.backstop import Overrun, within
+from proofs.shell.cli import Parser, heard, number, progress, share, whole
 from proofs.shell.files import write_files
 from proofs.shell.screen import say
 from proofs.system import System
 from proofs.theorem import Theorem
+from proofs.trusted.numbers import show
 from proofs.trusted.verdicts import Verdict
 
 SCHEMA = "impact-proofs.system/1"
+_SECONDS, _MOST_EFFORT = Fraction(120), 6
+_MOST = 12  # theorems of an answer on the screen
 _ASKED = ("orbits:1", "orbits:2", "stable", "horseshoe")
-_ASK = re.compile(r"orbits:[1-9][0-9]?|stable|horseshoe")
+T = TypeVar("T")
+_SIDE = r"[a-z]\w*=[^:,]+:[^:,]+"
+_ASK = re.compile(
+    rf"orbits:[1-9][0-9]?|stable|horseshoe|branches:{_SIDE}|(folds|flips):{_SIDE},{_SIDE}"
+)
+_ASKABLE = "orbits:N, stable, horseshoe, branches:P=A:B, folds:P=A:B,Q=C:D and flips, as folds"
 _STATEMENTS = {
     "orbits": "periodic orbits of this least period exist",
+    "branches": "branches of fixed points over this range of a parameter",
+    "folds": "curves of fixed points with the multiplier 1, over the second range",
+    "flips": "curves of fixed points with the multiplier -1, over the second range",
     "stable": "an attracting periodic orbit exists",
     "horseshoe": "the map, or its second iterate, has a full shift on two symbols",
 }
@@ -44,7 +60,8 @@ examples:
   python -m proofs system mine.toml --ask orbits:3 horseshoe --out runs/mine --figure
   python -m proofs system --map "1 - 1.4*x^2 + y" "0.3*x" --ask orbits:2
   python -m proofs system --map "r*x*(1 - x)" --set r=3.9 --box x=0:1 --json -
-  python -m proofs system --example bouncing-ball --set e=0.49:0.51 --ask orbits:1
+  python -m proofs system --example bouncing-ball --set e=0.499:0.501 --ask orbits:1
+  python -m proofs system --example bouncing-ball --ask folds:g=0.6:1,e=0.45:0.5
 """
 
 
@@ -69,22 +86,29 @@ class Answer(NamedTuple):
     @property
     def file(self) -> str:
         """The name of its certificate."""
-        return f"{self.id.replace(':', '-')}.json"
+        return f"{re.sub('[^a-z0-9]+', '-', self.id)}.json"
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Prove what is asked, print and write it; return the exit status."""
     options = _options(arguments)
-    system = _subject(options)
-    began = monotonic()
+    until = monotonic() + float(options.seconds)
+    late = f"stopped after {show(options.seconds)} seconds, as asked"
     with progress() as tell:
-        answers = []
+        system = _within(until, lambda: subject(options))
+        if system is None:
+            parser: Parser = options.parser
+            parser.error(f"{late}, before the motion was solved: give its `form`")
+        system.effort, answers = options.effort, []
         for asked in options.ask or _ASKED:
             tell(asked)
-            late = options.seconds is not None and monotonic() - began > options.seconds
-            answers.append(
-                Answer(asked, None, "no time is left") if late else _answer(system, asked, options)
-            )
+            try:
+                answer = _within(until, partial(_answer, system, asked))
+            except ValueError as error:
+                options.parser.error(str(error))
+            answers.append(answer or Answer(asked, None, late))
+        tell("floating point")
+        seen = _within(until, system.seen) if heard(options) else None
     if options.out:
         _write(options, system, answers)
     if options.json:
@@ -94,13 +118,39 @@ def main(arguments: list[str] | None = None) -> int:
         else:
             Path(options.json).write_text(text, "utf-8")
     if heard(options):
-        for line in _told(system, answers):
+        for line in _told(answers, seen or [late]):
             say(line)
     return int(any(each.theorem is None for each in answers))
 
 
+def _within(until: float, work: Callable[[], T]) -> T | None:
+    """Return what work returns; None where it is not done in time."""
+    with suppress(Overrun), within(until - monotonic()):
+        return work()
+    return None
+
+
 def _options(arguments: list[str] | None) -> Namespace:
     parser = Parser("proofs system", __doc__, EPILOG)
+    add_subject(parser)
+    help_text = f"what to prove: {_ASKABLE} (default {' '.join(_ASKED)})"
+    parser.add_argument("--ask", nargs="+", type=_question, metavar="WHAT", help=help_text)
+    help_text = f"stop after that, all in all (default {_SECONDS})"
+    parser.add_argument("--seconds", type=number, default=_SECONDS, metavar="S", help=help_text)
+    help_text = f"how much is looked at; each more is twice as much (default {EFFORT})"
+    reader = whole("effort", _MOST_EFFORT)
+    parser.add_argument("--effort", type=reader, default=EFFORT, metavar="N", help=help_text)
+    parser.add_argument("--figure", action="store_true", help="draw it as DIR/figure.svg, too")
+    share(parser, "--out", "--json", "--quiet")
+    options = parser.parse_args(arguments)
+    options.parser = parser
+    if options.figure and not options.out:
+        parser.error("--figure goes to the folder of --out")
+    return options
+
+
+def add_subject(parser: Parser) -> None:
+    """Add the options by which a system or a map is given."""
     parser.add_argument("file", nargs="?", metavar="FILE", help="a system's file")
     names = ", ".join(System.examples())
     parser.add_argument("--example", metavar="NAME", help=f"a published system: {names}")
@@ -111,18 +161,6 @@ def _options(arguments: list[str] | None) -> Namespace:
     parser.add_argument("--set", nargs="+", type=_pair, metavar="NAME=VALUE", help=help_text)
     help_text = "where orbits are looked for"
     parser.add_argument("--box", nargs="+", type=_pair, metavar="NAME=LOW:HIGH", help=help_text)
-    help_text = f"what to prove: orbits:N, stable, horseshoe (default {' '.join(_ASKED)})"
-    parser.add_argument("--ask", nargs="+", type=_question, metavar="WHAT", help=help_text)
-    parser.add_argument("--seconds", type=number, metavar="S", help="begin nothing after that")
-    parser.add_argument("--figure", action="store_true", help="draw it as DIR/figure.svg, too")
-    share(parser, "--out", "--json", "--quiet")
-    options = parser.parse_args(arguments)
-    options.parser = parser
-    if sum(map(bool, (options.file, options.example, options.map))) != 1:
-        parser.error("one of FILE, --example and --map is expected")
-    if options.figure and not options.out:
-        parser.error("--figure goes to the folder of --out")
-    return options
 
 
 def _pair(text: str) -> tuple[str, str]:
@@ -134,7 +172,7 @@ def _pair(text: str) -> tuple[str, str]:
 
 def _question(text: str) -> str:
     if not _ASK.fullmatch(text):
-        raise ArgumentTypeError(f"orbits:N, stable and horseshoe can be asked, not {text[:40]!r}")
+        raise ArgumentTypeError(f"{_ASKABLE} can be asked, not {text[:40]!r}")
     return text
 
 
@@ -143,9 +181,15 @@ def _ends(text: str) -> str | tuple[str, str]:
     return (low, high) if colon else low
 
 
-def _subject(options: Namespace) -> Map:
-    """Return the system or the map; what is wrong with it is one line, status 2."""
+def subject(options: Namespace, ranges: Mapping[str, Ends] = MappingProxyType({})) -> Map:
+    """Return the system or the map; what is wrong with it is one line, status 2.
+
+    ranges: of parameters, beside those of --set.
+    """
+    if sum(map(bool, (options.file, options.example, options.map))) != 1:
+        options.parser.error("one of FILE, --example and --map is expected")
     values: dict[str, Any] = {name: _ends(value) for name, value in options.set or ()}
+    values |= ranges
     try:
         if options.map:
             made = Map(*options.map, periods=dict(options.period or ()), **values)
@@ -167,30 +211,31 @@ def _side(text: str) -> tuple[str, str]:
     return ends
 
 
-def _answer(system: Map, asked: str, options: Namespace) -> Answer:
-    kind, _, period = asked.partition(":")
+def _answer(system: Map, asked: str) -> Answer:
+    kind, _, more = asked.partition(":")
     try:
-        if kind == "orbits":
-            theorem = system.orbits(int(period))
+        if kind in ("branches", "folds", "flips"):
+            sides = dict(map(_pair, more.split(",")))
+            theorem = getattr(system, kind)(**{name: _side(ends) for name, ends in sides.items()})
         else:
-            theorem = system.stable() if kind == "stable" else system.horseshoe()
+            theorem = system.orbits(int(more)) if more else getattr(system, kind)()
     except Undecided as error:
         return Answer(asked, None, str(error))
     return Answer(asked, theorem, "")
 
 
-def _told(system: Map, answers: Sequence[Answer]) -> Iterator[str]:
+def _told(answers: Sequence[Answer], seen: Sequence[str]) -> Iterator[str]:
     for answer in answers:
         if answer.theorem is not None:
             yield f"{answer.id}  Theorem, VERIFIED:"
-            yield from (f"  {line}" for line in str(answer.theorem).split("\n"))
+            yield from (f"  {line}" for line in answer.theorem.text(_MOST).split("\n"))
             yield ""
     for answer in answers:
         why = f": {answer.why}" if answer.why else ""
         yield f"{answer.id:12} {answer.verdict.value:10} {answer.statement}{why}"
     yield ""
     yield "Seen in floating point, not proved:"
-    yield from (f"  {line}" for line in system.seen())
+    yield from (f"  {line}" for line in seen)
 
 
 def _machine(system: Map, answers: Sequence[Answer]) -> dict[str, Any]:

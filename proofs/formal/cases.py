@@ -9,6 +9,7 @@ import math
 from fractions import Fraction
 
 from proofs.formal import lemma_text, theorem_text
+from proofs.formal.flights import Cutter, graph
 from proofs.formal.hints import NoHint, binary
 from proofs.formal.lemmas import ROOM, Lemmas
 from proofs.formal.plan import Headline, Plan
@@ -76,10 +77,10 @@ class Theorems(Lemmas):
         """Write what one phase shows against a claim."""
         point, of = self.plan.points[claim], self.plan.of
         phase, (low, high) = point.phase, point.slope
-        branch = self.hints.branch(phase, phase, _TINY)
-        self.add(lemma_text.BRANCH, i=f"_{claim}", **branch._asdict())
         spare = self._spare(claim, point.slope)
         room = min(ROOM, spare / 2**12)
+        cutter = Cutter(self.hints, (phase, _TINY))
+        self.branch(f"_{claim}", cutter, cutter.cut(phase - _TINY, phase + _TINY, 2 * room))
         self.finest = min(self.finest, room)
         bits, time = 2 - math.floor(math.log2(room)), self.hints.impact(float(phase))
         named: dict[str, object] = {
@@ -164,6 +165,16 @@ class Theorems(Lemmas):
             return short_decimal(max(Fraction(high), right[0]), right[1]), right[1]
         return None
 
+    def graphs(self) -> None:
+        """Write the graphs of the sets that stay, beside the horseshoe."""
+        sets = self.plan.sets
+        others = sets[1:] if sets and sets[0].is_horseshoe else sets  # the first has its theorem
+        for number, staying in enumerate(others, 1):
+            try:
+                graph(self, self.hints, number, staying)
+            except NoHint as failure:
+                self.left_out.append(f"graph{number}: {failure}")
+
     def write(self) -> None:
         """Write all lemmas and theorems."""
         self.state("model", theorem_text.MODEL_IN_WORDS, theorem_text.MODEL)
@@ -172,6 +183,7 @@ class Theorems(Lemmas):
         if self.plan.headline is not None:
             self.horseshoe(self.plan.headline)
         self.claims()
+        self.graphs()
 
 
 def case(plan: Plan, digest: str, floats: bool) -> Case:

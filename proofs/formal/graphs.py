@@ -109,7 +109,10 @@ def _node(op: str, parts: Sequence[tuple[str, str]], datum: Fraction) -> tuple[s
     if op == "number":
         over, under = f"(Integer ({datum.numerator}))", datum.denominator
         return rational(datum), over if under == 1 else f"(Div {over} (Integer {under}))"
-    real, tree = _WRITTEN["1/^" if op == "^" and datum < 0 else op]
+    written = "1/^" if op == "^" and datum < 0 else op
+    if written not in _WRITTEN:
+        raise NoTheorem(f"the formulas of the theory have no {op}")
+    real, tree = _WRITTEN[written]
     reals, trees = ([part[i] for part in parts] for i in (0, 1))
     return real.format(*reals, n=abs(datum)), tree.format(*trees, n=abs(datum))
 

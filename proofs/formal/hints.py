@@ -105,37 +105,6 @@ class Hints(System):
         values = [self.rate(phase) for phase in steps(float(domain[0]), float(domain[1]), 64)]
         return min(values), max(values)
 
-    def branch(self, low: Fraction, high: Fraction, slack: Fraction = SLACK) -> Branch:
-        """Return how the launches from [low, high], and some beyond, come to their impact."""
-        a, b = low - slack, high + slack
-        phases = steps(float(a), float(b), 16)
-        times = [self.impact(phase) for phase in phases]
-        first, last = min(times), max(times)
-
-        def falls(u: float, v: float) -> bool:
-            rates = [self.gap(*at, 1) for at in product(phases, steps(u, v, 16))]
-            return max(rates) < 0.25 * min(rates)
-
-        room = 0.5
-        while not falls(first - room, last + room / 8):
-            room /= 2
-            if room < _FINEST:
-                raise NoHint(f"the impacts of [{float(a):.4f}, {float(b):.4f}] are no branch")
-        bits = 5 - math.floor(math.log2(room))
-        lift = self.launch(phases, first - room)
-        u, v = binary(first - room, bits, True), binary(last + room / 8, bits)
-        return Branch(a, b, lift, u, v)
-
-    def branches(self, low: Fraction, high: Fraction, depth: int = 0) -> list[Branch]:
-        """Return branches for the launches from [low, high], each beginning before one ends."""
-        try:
-            return [self.branch(low, high)]
-        except NoHint:
-            if depth == _DEEPEST // 2:
-                raise
-        middle = (low + high) / 2
-        return self.branches(low, middle, depth + 1) + self.branches(middle, high, depth + 1)
-
     def launch(self, phases: list[float], most: float) -> Fraction:
         """Return a time up to which gap'' > 0 for launches from these phases."""
         lift = Fraction(4)

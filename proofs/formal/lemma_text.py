@@ -10,10 +10,12 @@ Import Tactic Exact."""
 HEAD = """(* Written by python -m proofs formal from the certificate with the SHA-256
    {digest}.
    Not trusted: coqc proves every line. To be read: Impact.v, and the theorems stated here. *)
-From Coq Require Import Reals ZArith Psatz Lia.
+From Coq Require Import Reals ZArith Psatz Lia List.
 From Coquelicot Require Import Coquelicot.
 {arithmetic}
-From Oscillator Require Import Impact Chaos Flight Shift Corrected Verdicts Consequences Claims.
+From Oscillator Require Import Impact Chaos Flight Shift Numbers March Corrected Flights Graph Cells
+  Verdicts Consequences Claims.
+Import ListNotations.
 Open Scope R_scope.
 
 Definition side := {side}.
@@ -27,6 +29,7 @@ Notation gap_tt := (Flight.gap_tt side eta nu).
 Notation slope := (Flight.slope side eta nu).
 Notation impact_time := (Flight.impact_time side eta nu).
 Notation rate := (Corrected.rate side eta nu).
+Notation f := (Corrected.f side eta nu).
 Notation first_impact := (Impact.first_impact side eta nu).
 Notation next := (Impact.next side eta nu).
 Notation slope_at := (Impact.slope_at side eta nu).
@@ -41,22 +44,15 @@ Ltac num := intros; unfold Impact.gap, Flight.gap_t, Flight.gap_tt, Flight.slope
 Ltac at_once := num; interval{plain}.
 Ltac one p := num; interval with (i_bisect p, i_autodiff p, i_depth 60{bits}).
 Ltac two p t := num; interval with (i_bisect t, i_bisect p, i_depth 60{bits}).
-Ltac flight p t := num; first [ interval with (i_bisect t, i_autodiff t, i_depth 11{bits}) |
-  interval with (i_bisect t, i_bisect p, i_autodiff t, i_depth 60{bits}) ].
 Ltac sloping p e := num; split; interval with (i_bisect p, i_bisect e, i_autodiff p, i_depth 60{bits}).
 """
 
 BRANCH = """
-Lemma launch{i} : forall phi t, {a} <= phi <= {b} -> 0 <= t <= {T} -> 0 < gap_tt phi t.
-Proof. two phi t. Qed.
-Lemma flight{i} : forall phi t, {a} <= phi <= {b} -> {T} <= t <= {u} -> 0 < gap phi t.
-Proof. flight phi t. Qed.
-Lemma fall{i} : forall phi t, {a} <= phi <= {b} -> {u} <= t <= {v} -> gap_t phi t < 0.
-Proof. two phi t. Qed.
-Lemma end{i} : forall phi, {a} <= phi <= {b} -> gap phi {v} < 0.
-Proof. one phi. Qed.
 Lemma branch{i} : branch side eta nu {a} {b} {T} {u} {v}.
-Proof. split; [lra | apply launch{i} | apply flight{i} | apply fall{i} | apply end{i}]. Qed.
+Proof.
+  apply (computed_branch {bits} {unit} ({side}) {eta} ({nu}) {cut} {starts});
+    [lia | vm_cast_no_check (eq_refl (Some {times})) | ..]; unfold ratio, side, eta, nu; cbn [first_phase last_phase]; field.
+Qed.
 """
 
 REGULAR = """

@@ -12,6 +12,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from proofs.formal import lemma_text as text
+from proofs.formal.flights import Cut, Cutter
 from proofs.formal.hints import SLACK, Branch, Hints, NoHint, binary
 from proofs.formal.plan import Plan
 from proofs.formal.written import Writer, by_cases, rational
@@ -102,10 +103,12 @@ class Lemmas(Writer):
     def _branches(self, index: int) -> list[Branch]:
         """Write that the launches near I0, or I1, have transversal first impacts."""
         whole = hull([sets.domains[index] for sets in self.sets])
-        branches = self.hints.branches(*whole)
+        cutter = Cutter(self.hints, whole)
+        cuts = cutter.pieces(*whole)
+        branches = [cut.branch for cut in cuts]
         parts = []
         for j, branch in enumerate(branches):
-            self.add(text.BRANCH, i=f"{index}_{j}", **branch._asdict())
+            self.branch(f"{index}_{j}", cutter, cuts[j])
             part = text.LAST if branch is branches[-1] else text.GLUED
             next_a = branches[min(j + 1, len(branches) - 1)].a
             parts.append(
@@ -115,6 +118,18 @@ class Lemmas(Writer):
         self.add(text.REGULAR, i=index, parts="".join(parts), **ends)
         self._rates(index, branches, whole)
         return branches
+
+    def branch(self, name: str, cutter: Cutter, cut: Cut) -> None:
+        """Write that launches have transversal first impacts, between two times."""
+        starts = " ".join(map(str, cut.times))
+        values = {
+            **cutter.numbers,
+            "cut": cut,
+            "times": f"{cut.times}%Z",
+            "starts": starts,
+            "i": name,
+        }
+        self.add(text.BRANCH, **values, **cut.branch._asdict())
 
     def _rates(self, index: int, branches: list[Branch], whole: Range) -> None:
         """Write the bounds on f', piece by piece, then for each of the sets and on the whole."""

@@ -41,7 +41,8 @@ class Headline:
 class Plan:
     """What is to be stated: a horseshoe, if there is one, and what is decided of the claims.
 
-    points: the phases by which claims are refuted; roots: of Moran's equation.
+    points: the phases by which claims are refuted; roots: of Moran's equation; sets: those that
+    stay, a horseshoe first.
     """
 
     of: Parameters
@@ -50,6 +51,7 @@ class Plan:
     statements: dict[str, str]
     points: dict[str, Impact]
     roots: tuple[MoranRoot, ...]
+    sets: tuple[StayingSet, ...]
 
     def holds(self, *claims: str) -> bool:
         """Whether claims are verified."""
@@ -88,6 +90,7 @@ def plan(source: str, report: Report | None = None) -> Plan:
         {name: each.statement for name, each in claims.items()},
         points,
         tuple(x for x in proofs.get("H11", []) if isinstance(x, MoranRoot)),
+        tuple(_staying(found)),
     )
     if not claims and result.headline is None:
         raise Malformed("$.claims: none is of python -m proofs horseshoe, or rests on a horseshoe")
@@ -100,8 +103,8 @@ def _headline(
     of: Parameters, found: list[Conclusion], verdicts: dict[str, Verdict], is_corrected: bool
 ) -> Headline | None:
     """Return the corrected theorem, or that of the given sets if H4 and H5 hold on them."""
-    for each in found:
-        if isinstance(each, StayingSet) and each.is_horseshoe:
+    for each in _staying(found)[:1]:
+        if each.is_horseshoe:
             slopes = rounded_slopes(each.steepness, max(2, places(of.slopes)))
             left, right = each.cells
             signs = each.signs[0], each.signs[1]
@@ -118,6 +121,12 @@ def _headline(
     if not (1 < low <= bounds[0] and bounds[1] <= high):
         low, high = _rounded(bounds)
     return Headline(of.left, of.right, (parts[0].sign, parts[1].sign), (low, high), False)
+
+
+def _staying(found: list[Conclusion]) -> list[StayingSet]:
+    """Return the sets that stay, a horseshoe first."""
+    sets = dict.fromkeys(each for each in found if isinstance(each, StayingSet))
+    return sorted(sets, key=lambda each: not each.is_horseshoe)
 
 
 def _part(ranges: list[SlopeRange], domain: Range) -> SlopeRange | None:

@@ -1,4 +1,4 @@
-"""Follow a curve of zeros of n functions of n + 1 variables, in slanted boxes: the rule `arc`."""
+"""Follow a curve of zeros of a map of n + 1 variables to n values, in slanted boxes: rule `arc`."""
 
 from __future__ import annotations
 
@@ -7,20 +7,21 @@ from contextlib import suppress
 from fractions import Fraction
 from typing import Any, NamedTuple
 
-from intervals import Interval, IntervalError, Undecided
-from proofs.methods.formulas import dot, jacobian
-from proofs.methods.lemmas import krawczyk, newton, require_zero, written
+from intervals import IntervalError, Undecided
+from proofs.methods.formulas import dot
+from proofs.methods.lemmas import krawczyk, middles, newton, require_zero, undecided, written
 from proofs.trusted.certificate import texts
-from proofs.trusted.kernel.enclose import Box, centre_of
-from proofs.trusted.kernel.formulas import Formulas
+from proofs.trusted.kernel.enclose import Box, centre_of, enclosed, point_box
+from proofs.trusted.kernel.maps import Map
 from proofs.trusted.kernel.zeros import Piece
 
 _UNIT = Fraction(1, 10**6)  # of the axis
 _FINE = Fraction(1, 10**10)  # of the other sides
-_PLACES = 2**20  # of matrices and slopes
+_PLACES = 10**6  # of matrices and slopes
 _SHORTEST = Fraction(1, 10**5)
 _ROOM = Fraction(13, 10)
 _TRIES = 4
+_BITS = 64
 _FACTOR = Fraction(3, 2)
 Rows = Sequence[Sequence[Fraction]]
 
@@ -42,22 +43,22 @@ class Traced(NamedTuple):
 
 
 def thin(
-    formula: Formulas, axis: int | None, guess: Sequence[Fraction], places: int
+    map_: Map, axis: int | None, guess: Sequence[Fraction], places: int
 ) -> tuple[Box, dict[str, Any]]:
     """Return a box 10^-places wide around a zero, at the guess's value of the axis; its witness."""
     bits, unit = places * 4 + 40, Fraction(1, 10**places)
-    centre, rows = newton(formula, guess, axis=axis, bits=bits)
+    centre, rows = newton(map_, guess, axis=axis, bits=bits)
     box = tuple(
         (x, x) if k == axis else (round(x / unit) * unit - unit, round(x / unit) * unit + unit)
         for k, x in enumerate(centre)
     )
     matrix = _short(rows)
-    require_zero(formula, box, matrix, axis=axis, bits=bits)
+    require_zero(map_, box, matrix, axis=axis, bits=bits)
     return box, {"box": written(box), "matrix": [texts([*row]) for row in matrix]}
 
 
 def follow(
-    formula: Formulas,
+    map_: Map,
     axis: int,
     start: Sequence[Fraction],
     end: Fraction,
@@ -76,9 +77,9 @@ def follow(
     while place[axis] < end and len(found) < most:
         ahead = min(step, end - place[axis])
         try:
-            traced = _traced(formula, axis, place, ahead)
+            traced = _traced(map_, axis, place, ahead)
             if found:
-                _require_joined(formula, axis, found[-1], traced)
+                _require_joined(map_, axis, found[-1], traced)
             accept(traced.piece)
         except IntervalError as failure:
             step = ahead / 2 // _UNIT * _UNIT
@@ -93,13 +94,14 @@ def follow(
     return found
 
 
-def _traced(formula: Formulas, axis: int, place: Sequence[Fraction], ahead: Fraction) -> Traced:
+def _traced(map_: Map, axis: int, place: Sequence[Fraction], ahead: Fraction) -> Traced:
     """Return a piece that begins at a value of the axis: it is widened until it holds one zero."""
     guess = list(place)
     guess[axis] += ahead / 2
-    centre, rows = newton(formula, guess, axis=axis)
+    centre, rows = newton(map_, guess, axis=axis)
     matrix = _short(rows)
-    along = [row[axis].mid for row in jacobian(formula, [Interval(x) for x in centre])]
+    with undecided():
+        along = middles([row[axis] for row in map_.jacobian(enclosed(point_box(centre), _BITS))])
     changes = iter(_short([[-dot(row, along) for row in matrix]])[0])
     slope = tuple(Fraction(0) if k == axis else next(changes) for k in range(len(centre)))
     reach = dict.fromkeys(range(len(centre)), _FINE)
@@ -108,11 +110,11 @@ def _traced(formula: Formulas, axis: int, place: Sequence[Fraction], ahead: Frac
             (place[axis], place[axis] + ahead) if k == axis else _around(x, reach[k])
             for k, x in enumerate(centre)
         )
-        image = krawczyk(formula, box, matrix, axis=axis, slope=slope)
-        if all(box[k][0] < each.inf and each.sup < box[k][1] for k, each in image.items()):
+        image = krawczyk(map_, box, matrix, axis=axis, slope=slope)
+        if all(box[k][0] < low and high < box[k][1] for k, (low, high) in image.items()):
             return Traced(Piece(box, slope), matrix)
-        for k, each in image.items():
-            reach[k] = _ROOM * max(abs(each.inf - centre[k]), abs(each.sup - centre[k]))
+        for k, (low, high) in image.items():
+            reach[k] = _ROOM * max(abs(low - centre[k]), abs(high - centre[k]))
     raise Undecided("a box with one zero for each value of the axis is not found")
 
 
@@ -124,10 +126,10 @@ def _around(value: Fraction, reach: Fraction) -> tuple[Fraction, Fraction]:
     return (value - reach) // _FINE * _FINE, -(-(value + reach) // _FINE) * _FINE
 
 
-def _require_joined(formula: Formulas, axis: int, before: Traced, after: Traced) -> None:
+def _require_joined(map_: Map, axis: int, before: Traced, after: Traced) -> None:
     """Prove that both have the same zero where they meet; Undecided if not."""
     ends = [each.piece.cut(axis, after.piece.box[axis][0]) for each in (before, after)]
     with suppress(Undecided):
-        require_zero(formula, ends[0], before.matrix, axis=axis, inside=ends[1])
+        require_zero(map_, ends[0], before.matrix, axis=axis, inside=ends[1])
         return
-    require_zero(formula, ends[1], after.matrix, axis=axis, inside=ends[0])
+    require_zero(map_, ends[1], after.matrix, axis=axis, inside=ends[0])

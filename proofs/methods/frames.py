@@ -96,20 +96,30 @@ def _sides(
 ) -> Floats:
     """Return the least sides, by iteration from small ones; they grow."""
     images, derivatives = sampled.expanded(centres.T)
+    drift = np.zeros_like(images)  # with the parameters, to first order
+    for ends in sampled.varied():
+        drift += np.maximum(*(np.abs(end(centres.T).T - images) for end in ends))
     linear = []
     for i, j in arrows:
         back, apart = np.linalg.inv(matrices[j]), images[i] - centres[j]
         apart = apart - whole_periods(sampled, apart)
-        linear.append((i, j, back @ apart, back @ derivatives[i] @ matrices[i]))
+        linear.append(
+            (
+                i,
+                j,
+                np.abs(back @ apart) + np.abs(back) @ drift[i],
+                back @ derivatives[i] @ matrices[i],
+            )
+        )
     sides = np.full(centres.shape, _LEAST)
     for _ in range(200):
         grown = sides.copy()
         for i, j, offset, matrix in linear:
             size = np.abs(matrix)
             spread = size @ (sides[i] * np.r_[0, np.ones(len(offset) - 1)])
-            need = _SPARE * (sides[j][0] + abs(offset[0])) + spread[0]
+            need = _SPARE * (sides[j][0] + offset[0]) + spread[0]
             grown[i, 0] = max(grown[i, 0], need / max(size[0, 0], 1e-12))
-            reach = _SPARE * (np.abs(offset) + size @ sides[i])
+            reach = _SPARE * (offset + size @ sides[i])
             grown[j, 1:] = np.maximum(grown[j, 1:], reach[1:])
         if (grown <= sides * (1 + 1e-6)).all():
             return grown

@@ -1,7 +1,8 @@
 """Formulas as people type them, and as the checker reads them: one grammar for all of a user's own.
 
 Numbers are decimals or integers and exact; ^ and ** are powers; y' and y'' are derivatives by the
-time; sin, cos, exp, log, sqrt, and tan, sinh, cosh, tanh in terms of these. Every failure is a
+time; sin, cos, exp, log, sqrt, atan, and tan, sinh, cosh, tanh, abs in terms of these: abs(x) is
+sqrt(x^2), continuous, and with a derivative where x is proved not to be 0. Every failure is a
 GrammarError that says where, and what would be accepted.
 """
 
@@ -12,6 +13,7 @@ import re
 from collections.abc import Iterator
 from fractions import Fraction
 
+from intervals import fraction
 from proofs.trusted.kernel.expression import FUNCTIONS
 from proofs.trusted.kernel.trees import formula
 
@@ -19,17 +21,17 @@ _TOKEN = re.compile(
     r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
     r"|(?P<name>[A-Za-z_]\w*)(?P<primes>'*)|(?P<op>\*\*|[-+*/^(),=]))"
 )
+_DIGITS = 190  # of a numerator or denominator: certificates take 400 characters a number
 _DERIVED = {
+    "abs": "sqrt(({0})**2)",
     "tan": "sin({0})/cos({0})",
     "sinh": "(exp({0}) - exp(-({0})))/2",
     "cosh": "(exp({0}) + exp(-({0})))/2",
     "tanh": "1 - 2/(exp(2*({0})) + 1)",
 }
 _OTHERS = {
-    "abs": "it is not smooth; give each of the two cases as a map, or as a gap, of its own",
     "ln": "write log",
-    "arctan": "it is none of the functions that are proved here",
-    "atan": "it is none of the functions that are proved here",
+    "arctan": "write atan",
     "mod": "give the period of the variable in `periods`",
 }
 _KNOWN = (*FUNCTIONS, *_DERIVED)
@@ -38,6 +40,20 @@ _NAME = re.compile(r"[a-z][a-z0-9_]{0,11}")
 
 class GrammarError(ValueError):
     """A text is no formula; the message is one sentence."""
+
+
+def exact(value: int | Fraction | str) -> Fraction:
+    """Return an exact number of up to 190 digits; a float raises with the hint to write a text."""
+    if isinstance(value, float):
+        plain = float(value)  # numpy's shows its type
+        raise TypeError(f'{plain} is a float, and not that decimal: write it as "{plain}"')
+    try:
+        number = fraction(value)
+    except ValueError as error:
+        raise GrammarError(str(error)) from None
+    if max(abs(number.numerator), number.denominator) >= 10**_DIGITS:
+        raise GrammarError(f"a number of more than {_DIGITS} digits: {str(value)[:20]}...")
+    return number
 
 
 def canonical(text: str, time: str = "") -> str:
@@ -86,7 +102,7 @@ def _python(text: str, time: str) -> Iterator[str]:
         if before in ("number", "name", ")") and (number or word or op == "("):
             raise GrammarError(f"{_at(text, place)}: write * for a product")
         if number:
-            value = Fraction(number)
+            value = exact(number)
             yield str(value) if value.denominator == 1 else f"({value})"
         elif word:
             yield _derivative(word, len(primes), time) if primes else word
@@ -94,7 +110,7 @@ def _python(text: str, time: str) -> Iterator[str]:
             if op == "=":
                 raise GrammarError(f"{_at(text, place)}: a formula, no equation, is expected")
             yield "**" if op == "^" else op
-        is_call = bool(word) and text[match.end() : match.end() + 1] == "("
+        is_call = bool(word) and text[match.end() :].lstrip().startswith("(")
         if is_call and word not in _KNOWN:
             hint = _OTHERS.get(word, f"write * for a product; functions are {', '.join(_KNOWN)}")
             raise GrammarError(f"{_at(text, place)}: {hint}")

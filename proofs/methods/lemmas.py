@@ -7,7 +7,8 @@ where no witness is found.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
@@ -19,24 +20,28 @@ from proofs.methods.formulas import (
     dot,
     enclosed,
     inverse,
-    jacobian,
     subdivide,
     values,
 )
 from proofs.trusted.certificate import SCHEMA, Reader, texts
-from proofs.trusted.kernel.enclose import Box, centre_of, point_box
+from proofs.trusted.kernel import zeros
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
+from proofs.trusted.kernel.enclose import Box, Differentiable, centre_of, point_box
+from proofs.trusted.kernel.enclose import enclosed as box_of
 from proofs.trusted.kernel.formulas import Formulas, read_formulas
 from proofs.trusted.kernel.head import read_function
+from proofs.trusted.kernel.maps import Map
 from proofs.trusted.kernel.solutions import Expressions
 from proofs.trusted.kernel.trees import formula
 from proofs.trusted.kernel.values import Equal, Series
-from proofs.trusted.kernel.zeros import Piece
+from proofs.trusted.kernel.zeros import Piece, Rows
 from proofs.trusted.numbers import Range
 
 _COARSE_DIGITS = 3
 _UNUSED = (Fraction(0), Fraction(0))  # the side of x where there is no variable
 _PLACES = 2**40  # candidates are rounded to multiples of 1 / _PLACES
 _STEPS = 8  # of Newton's method
+_BITS = 64
 
 Number = Fraction | int | str
 Sides = Sequence[tuple[Number, Number]]
@@ -211,7 +216,7 @@ class Lemmas:
         return self.zero(text, value, bracket)
 
     def unique_zero(
-        self, function: str, guess: Sequence[Number], radius: Number, *, bits: int = 53
+        self, function: str, guess: Sequence[Number], radius: Number, *, bits: int = 64
     ) -> str:
         """Add a step `unique-zero`: Newton's method from the guess, then a cube around its end."""
         formula, reach = self.function(function), Fraction(radius)
@@ -226,71 +231,64 @@ class Lemmas:
 
 
 def newton(
-    formula: Formulas, guess: Sequence[Fraction], *, axis: int | None = None, bits: int = 53
+    map_: Map, guess: Sequence[Fraction], *, axis: int | None = None, bits: int = 64
 ) -> tuple[list[Fraction], list[list[Fraction]]]:
     """Return about a zero, and the inverse of the derivative; without moving along an axis."""
     centre, places = list(guess), 2 ** (bits - 13)
     moving = [k for k in range(len(centre)) if k != axis]
-    for _ in range(_STEPS):
-        matrix = _inverse_at(formula, centre, moving)
-        defect = [v.mid for v in values(formula, [Interval(x, precision=bits) for x in centre])]
-        last = list(centre)
-        for k, row in zip(moving, matrix, strict=True):
-            centre[k] = _rounded(centre[k] - dot(row, defect), places)
-        if centre == last:
-            break
+    with undecided():
+        for _ in range(_STEPS):
+            matrix = _inverse_at(map_, centre, moving)
+            defect = middles(map_.values(box_of(point_box(centre), bits)))
+            last = list(centre)
+            for k, row in zip(moving, matrix, strict=True):
+                centre[k] = _rounded(centre[k] - dot(row, defect), places)
+            if centre == last:
+                break
     return centre, matrix
 
 
 def require_zero(
-    formula: Formulas,
-    box: Box,
-    matrix: Sequence[Sequence[Fraction]],
-    *,
-    inside: Box = (),
-    **options: Any,
+    map_: Differentiable, box: Box, matrix: Rows, *, inside: Box = (), **options: Any
 ) -> None:
     """Raise Undecided unless the Krawczyk operator maps the box inside itself, or another one."""
-    for k, image in krawczyk(formula, box, matrix, **options).items():
-        low, high = (inside or box)[k]
-        if not (low < image.inf and image.sup < high):
+    for k, (low, high) in krawczyk(map_, box, matrix, **options).items():
+        if not (inside or box)[k][0] < low <= high < (inside or box)[k][1]:
             raise Undecided("whether there is exactly one zero near the guess")
 
 
 def krawczyk(
-    formula: Formulas,
+    map_: Differentiable,
     box: Box,
-    matrix: Sequence[Sequence[Fraction]],
+    matrix: Rows,
     *,
     centre: Sequence[Fraction] = (),
     axis: int | None = None,
     slope: Sequence[Fraction] = (),
-    bits: int = 53,
-) -> dict[int, Interval]:
-    """Enclose m - C F(m) + (1 - C F'(X)) (X - m) by variables.
+    bits: int = 64,
+) -> dict[int, Range]:
+    """Enclose m - C F(m) + (1 - C F'(X)) (X - m) by variables, as the checker does.
 
     With an axis and a slope: that of a slanted box, without the axis, see the rule `arc`.
     """
-    whole = box if axis is None else Piece(box, tuple(slope) or _flat(box)).hull(axis)
-    x, middle = (
-        [Interval(*side, precision=bits) for side in sides]
-        for sides in (box, point_box(centre or centre_of(box)))
-    )
-    defect = values(formula, middle)
-    slopes = jacobian(formula, [Interval(*side, precision=bits) for side in whole])
-    if axis is not None:
-        for partials in slopes:
-            partials[axis] += dot(partials, slope or _flat(box))
-    moved = [a - m for a, m in zip(x, middle, strict=True)]
-    columns, image = list(zip(*slopes, strict=True)), {}
-    for i, row in zip((k for k in range(len(x)) if k != axis), matrix, strict=True):
-        rest = [int(i == j) - dot(row, column) for j, column in enumerate(columns)]
-        image[i] = middle[i] - dot(row, defect) + dot(rest, moved)
-    return image
+    piece = Piece(box, tuple(slope) or (Fraction(0),) * len(box))
+    with undecided():
+        image = zeros.krawczyk(map_, piece, centre or centre_of(box), matrix, (axis, bits))
+        return {k: each.range for k, each in image.items()}
 
 
-def _flat(box: Box) -> tuple[Fraction, ...]:
-    return (Fraction(0),) * len(box)
+@contextmanager
+def undecided() -> Iterator[None]:
+    """Say Undecided for what the checker's lemmas do not prove."""
+    try:
+        yield
+    except Unproved as error:
+        raise Undecided(str(error)) from None
+
+
+def middles(values: Sequence[Enclosure]) -> tuple[Fraction, ...]:
+    """Return the middles of enclosures."""
+    return centre_of(tuple(value.range for value in values))
 
 
 def _sides(box: Named) -> dict[str, Range]:
@@ -303,9 +301,9 @@ def _rounded(value: Fraction, places: int = _PLACES) -> Fraction:
 
 
 def _inverse_at(
-    formula: Formulas, point: Sequence[Fraction], places: Sequence[int]
+    map_: Map, point: Sequence[Fraction], places: Sequence[int]
 ) -> list[list[Fraction]]:
     """Return about the inverse of the derivative by some variables at a point."""
-    rows = jacobian(formula, [Interval(x) for x in point])
-    exact_inverse = inverse(tuple(tuple(row[k].mid for k in places) for row in rows))
+    rows = map_.jacobian(box_of(point_box(point), _BITS))
+    exact_inverse = inverse(tuple(middles([row[k] for k in places]) for row in rows))
     return [[_rounded(entry) for entry in row] for row in exact_inverse]

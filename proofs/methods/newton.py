@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from fractions import Fraction
 from typing import Any, NamedTuple
 
@@ -12,20 +14,23 @@ from intervals import Interval, Undecided
 from proofs.methods.cells import Region, function_of, invariant_cover
 from proofs.methods.derivation import Derivation
 from proofs.methods.formulas import dot, inverse
+from proofs.methods.lemmas import middles
 from proofs.methods.periodic import Orbit, periodic_orbits
-from proofs.methods.sampling import Floats, Power, Sampled
+from proofs.methods.sampling import Floats, Sampled, ranges_of
 from proofs.trusted.certificate import texts
-from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
-from proofs.trusted.kernel.enclose import centre_of, enclosed, point_box
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.covers import Rows
+from proofs.trusted.kernel.enclose import Box, centre_of, enclosed, point_box
 from proofs.trusted.kernel.formulas import Formulas
 from proofs.trusted.kernel.periodic import Closing
+from proofs.trusted.kernel.zeros import Piece, krawczyk
 from proofs.trusted.numbers import Range
 
 _FOLLOWED, _SETTLING, _FAR, _CLOSE = 30, 150, 1e6, 1e-3  # points of an attractor
-_STEPS, _NEAR = 12, 1e-9  # of Newton's method
+_STEPS, _NEAR, _STILL = 12, 1e-9, 1e-13  # of Newton's method
 _BITS, _PLACE, _RADIUS = 160, Fraction(1, 10**26), Fraction(1, 10**22)  # of exact points
 _RADII = ("1/1000000000", "1/100000000000", "1/10000000", "1/100000")  # of boxes around points
-_WIDE = ("1/10000", "1/1000", "1/100")  # where parameters have ranges
+_FIRST, _MORE, _INFLATIONS = Fraction(1, 10**6), 1.3, 12  # of boxes where parameters have ranges
 
 
 class Cycle(NamedTuple):
@@ -51,15 +56,23 @@ def cycles(sampled: Sampled, period: int, starts: Floats) -> list[Cycle]:
 
     starts: of the shape (variables, points).
     """
-    iterate, x = Power(sampled.map, period), starts.copy()
+    x = _fixed(sampled.iterate(period), starts)
+    return _distinct(sampled, period, x[:, np.isfinite(x).all(axis=0)])
+
+
+def _fixed(iterate: Sampled, starts: Floats) -> Floats:
+    """Return the fixed points to which Newton's method leads, nan where to none."""
+    x = starts.copy()
     with np.errstate(all="ignore"):
         for _ in range(_STEPS):
             image, derivatives = iterate.expanded(x)
             matrix, missed = derivatives - np.eye(len(x)), image - x.T
-            step = _solved(matrix, missed - whole_periods(sampled, missed)).T
+            step = _solved(matrix, missed - whole_periods(iterate, missed)).T
             x = x - step
+            if np.nanmax(np.abs(step), initial=0) < _STILL:
+                break
         good = (np.abs(step) < _NEAR * (1 + np.abs(x))).all(axis=0) & np.isfinite(x).all(axis=0)
-    return _distinct(sampled, period, x[:, good])
+    return np.where(good, x, np.nan)
 
 
 def _solved(matrices: Floats, right: Floats) -> Floats:
@@ -193,9 +206,9 @@ def _orbit_witness(formula: Formulas, orbit: Orbit) -> dict[str, Any]:
     closing = Closing(formula, orbit.period, ())
     for _ in range(_STEPS):
         x = enclosed(point_box(point), _BITS)
-        slopes = tuple(_middles(row) for row in closing.jacobian(x))
+        slopes = tuple(middles(row) for row in closing.jacobian(x))
         matrix = [[Fraction(f"{float(c):.10g}") for c in row] for row in inverse(slopes)]
-        missed = _middles(closing.values(x))
+        missed = middles(closing.values(x))
         last, moved = point, (x - dot(row, missed) for x, row in zip(point, matrix, strict=True))
         point = [round(x / _PLACE) * _PLACE for x in moved]
         if point == last:
@@ -204,37 +217,68 @@ def _orbit_witness(formula: Formulas, orbit: Orbit) -> dict[str, Any]:
     return {"point": texts(point), "period": str(orbit.period), "matrix": entries}
 
 
-def _middles(values: Sequence[Enclosure]) -> tuple[Fraction, ...]:
-    return centre_of(tuple(value.range for value in values))
+def prove_orbits(file: Derivation, function: str, cycles: Sequence[Cycle]) -> list[str]:
+    """Add steps `periodic-orbit` about those orbits for which they are concluded."""
+    steps = []
+    for cycle in cycles:
+        with suppress(Unproved):
+            steps.append(_prove_orbit(file, function, cycle))
+    return steps
 
 
-def prove_orbit(file: Derivation, function: str, cycle: Cycle) -> str:
+def _prove_orbit(file: Derivation, function: str, cycle: Cycle) -> str:
     """Add a step `periodic-orbit` about an orbit; raises Unproved where that is not concluded."""
     map_, n = file.map(function), len(cycle.points)
-    sampled = Power(map_, n)
     matrix = np.linalg.inv(cycle.derivative - np.eye(len(map_.variables)))
+    rows = [tuple(Fraction(f"{entry:.10g}") for entry in row) for row in matrix]
     witness: dict[str, Any] = {"function": function, "period": str(n)}
+    turns: tuple[int, ...] = ()
     if map_.circles:
-        end = sampled(cycle.points[:1].T)[:, 0] - cycle.points[0]
-        turns = np.round(end / sampled.periods)
-        witness["turns"] = [str(int(turns[circle.place])) for circle in map_.circles]
-    for radius in map(Fraction, _RADII + (_WIDE if _has_ranges(file, function) else ())):
-        box = [_around(float(x), radius) for x in cycle.points[0]]
-        entries = [[str(Fraction(f"{entry:.10g}")) for entry in row] for row in matrix]
+        sampled = Sampled(map_).iterate(n)
+        apart = (sampled(cycle.points[:1].T)[:, 0] - cycle.points[0]) / sampled.periods
+        turns = tuple(round(apart[circle.place]) for circle in map_.circles)
+        witness["turns"] = list(map(str, turns))
+    witness["matrix"] = list(map(texts, rows))
+    closing, reason = Closing(map_, n, turns), Unproved("no box around the orbit is found")
+    for box in _boxes(closing, cycle.points[0], tuple(rows), bool(ranges_of(map_))):
         try:
-            return file.add(
-                "periodic-orbit", {**witness, "box": list(map(texts, box)), "matrix": entries}
-            )
+            return file.add("periodic-orbit", {**witness, "box": list(map(texts, box))})
         except Unproved as error:
             reason = error
     raise reason
 
 
-def _has_ranges(file: Derivation, function: str) -> bool:
-    parameters = file.functions[function].get("parameters", {})
-    return any(low != high for low, high in parameters.values())
+def _boxes(closing: Closing, point: Floats, matrix: Rows, has_ranges: bool) -> Iterator[Box]:
+    """Yield boxes around a point of an orbit, to be tried in turn.
+
+    Where parameters have ranges, they are grown until the checker's operator maps one inside
+    (epsilon-inflation: Rump, Kleine Fehlerschranken bei Matrixproblemen, 1980).
+    """
+    if not has_ranges:
+        yield from (_around(point, [Fraction(radius)] * len(point)) for radius in _RADII)
+        return
+    box = _around(point, [_FIRST] * len(point))
+    for _ in range(_INFLATIONS):
+        middle = centre_of(box)
+        flat = Piece(box, (Fraction(0),) * len(box))
+        enclosures = krawczyk(closing, flat, middle, matrix, (None, _BITS))
+        image = {k: each.range for k, each in enclosures.items()}
+        if all(box[k][0] < low and high < box[k][1] for k, (low, high) in image.items()):
+            yield box
+            return
+        box = _around(
+            point,
+            [
+                Fraction(f"{_MORE * float(max(high - m, m - low)) / 2:.2g}")
+                for m, (low, high) in zip(middle, image.values(), strict=True)
+            ],
+        )
 
 
-def _around(x: float, radius: Fraction) -> Range:
-    middle = round(Fraction(x) / radius) * radius
-    return middle - 2 * radius, middle + 2 * radius
+def _around(point: Floats, radii: Sequence[Fraction]) -> Box:
+    """Return a box with few digits, of twice the radii."""
+    units = [Fraction(10) ** math.floor(math.log10(radius)) for radius in radii]
+    middles = [
+        round(Fraction(float(x)) / unit) * unit for x, unit in zip(point, units, strict=True)
+    ]
+    return tuple((m - 2 * r, m + 2 * r) for m, r in zip(middles, radii, strict=True))

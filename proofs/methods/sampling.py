@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
+from proofs.methods.flows import Flown
 from proofs.trusted.kernel.expression import Tape
 from proofs.trusted.kernel.flight import Flight
+from proofs.trusted.kernel.flow import Flow
 from proofs.trusted.kernel.formulas import Formulas
 from proofs.trusted.kernel.maps import Composition, Map
+from proofs.trusted.numbers import Range
 
 Floats = NDArray[np.float64]
 Function = Callable[..., Sequence[Any]]
@@ -22,8 +25,16 @@ _BITS = 64  # of periods
 _STEP, _TOGETHER, _LONGEST = 1 / 32, 128, 64.0  # of a flight
 _HALVINGS, _NEWTON = 8, 4
 _APART = 1e-6  # of points for differences
+_STARTS, _FEW = 120, 20  # points at random for a search
 
-_OPERATORS = {"+": "{} + {}", "-": "{} - {}", "*": "{}*{}", "/": "{}/{}", "negative": "-{}"}
+_OPERATORS = {
+    "atan": "np.arctan({})",
+    "+": "{} + {}",
+    "-": "{} - {}",
+    "*": "{}*{}",
+    "/": "{}/{}",
+    "negative": "-{}",
+}
 
 
 def compiled(tape: Tape, roots: Sequence[int]) -> Function:
@@ -50,19 +61,47 @@ def compiled(tape: Tape, roots: Sequence[int]) -> Function:
     return function
 
 
+def ranges_of(map_: Map) -> tuple[Range, ...]:
+    """Return the ranges of a map's parameters, which the maps of a composition have in common."""
+    if isinstance(map_, Composition):
+        return ranges_of(map_.maps[0])
+    if isinstance(map_, Flow):
+        return map_.ranges
+    if isinstance(map_, Flight | Formulas):
+        return map_.formulas.ranges if isinstance(map_, Flight) else map_.ranges
+    raise TypeError(f"no way to sample a {type(map_).__name__}")
+
+
 @dataclass(frozen=True)
 class Sampled:
     """A map on arrays of points, of the shape (n, points); nan where it is not defined.
 
-    A point of a parameter in a range is its middle.
+    shares: where each parameter is in its range, from 0 to 1; in the middle of those left out.
     """
 
     map: Map
+    shares: tuple[float, ...] = ()
+
+    def iterate(self, power: int) -> Power:
+        """Return an iterate of it."""
+        return Power(self.map, self.shares, power)
+
+    def varied(self) -> Iterator[tuple[Self, Self]]:
+        """Yield the map with one parameter at the ends of its range, for each of the parameters."""
+        for k in range(len(ranges_of(self.map))):
+            low, high = ((0.5,) * k + (end,) for end in (0.0, 1.0))
+            yield replace(self, shares=low), replace(self, shares=high)
 
     def __call__(self, x: Floats) -> Floats:
         """Return the images; angles are not reduced."""
         with np.errstate(all="ignore"):
             return self._images(self.map, x)
+
+    @property
+    def starts(self) -> int:
+        """The number of points at random for a search: fewer of a flow, where each is dear."""
+        parts = self.map.maps if isinstance(self.map, Composition) else (self.map,)
+        return _FEW if any(isinstance(part, Flow) for part in parts) else _STARTS
 
     @cached_property
     def periods(self) -> Floats:
@@ -103,6 +142,8 @@ class Sampled:
         if isinstance(map_, Flight):
             time = self.times(map_, x)
             return self._evaluated(map_.formulas, map_.outcome, [*x, time])
+        if isinstance(map_, Flow):
+            return Flown(map_, self._parameters(map_.ranges), compiled)(x)
         if isinstance(map_, Formulas):
             return self._evaluated(map_, map_.roots, [*x])
         raise TypeError(f"no way to sample a {type(map_).__name__}")
@@ -145,10 +186,15 @@ class Sampled:
         values = self._function(formulas, tuple(roots))(*x)
         return np.array([np.broadcast_to(value, np.shape(x[0])) for value in values])
 
+    def _parameters(self, ranges: Sequence[Range]) -> list[float]:
+        shares = (*self.shares, *[0.5] * len(ranges))
+        sides = zip(ranges, shares, strict=False)
+        return [float(low) + float(high - low) * share for (low, high), share in sides]
+
     def _function(self, formulas: Formulas, roots: Sequence[int]) -> Function:
         key = (id(formulas), tuple(roots))
         if key not in self._compiled:
-            parameters = [float(sum(ends) / 2) for ends in formulas.ranges]
+            parameters = self._parameters(formulas.ranges)
             function = compiled(formulas.tape, roots)
             self._compiled[key] = lambda *x: function(*x, *parameters)
         return self._compiled[key]

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
 from itertools import combinations, islice
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from proofs.methods.derivation import Derivation
 from proofs.methods.formulas import Tree, inverse, subdivide
 from proofs.methods.frames import Frames, crossing, frames, laps
 from proofs.methods.newton import distance
-from proofs.methods.sampling import Floats, Power, Sampled
+from proofs.methods.sampling import Floats, Sampled
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.cones import Form, check_cone
@@ -84,7 +84,7 @@ def _clear(values: Sequence[Any]) -> bool:
 
 def _turns(map_: Map, power: int, source: HSet, target: HSet) -> tuple[int, ...]:
     """Return how many periods lie between the image of one centre and the other."""
-    sampled = Power(map_, power)
+    sampled = Sampled(map_).iterate(power)
     start = np.array(source.centre, float)[:, None]
     apart = sampled(start)[:, 0] - np.array(target.centre, float)
     return tuple(int(np.round(apart[c.place] / sampled.periods[c.place])) for c in map_.circles)
@@ -92,7 +92,10 @@ def _turns(map_: Map, power: int, source: HSet, target: HSet) -> tuple[int, ...]
 
 def _tree(local: LocalMap, box: Box, holds: Any, most: int) -> Tree:
     def decided(part: Box) -> bool:
-        return any(holds(values) for values in islice(attempts(local, part, (_BITS,)), 2))
+        try:
+            return any(holds(values) for values in islice(attempts(local, part, (_BITS,)), 2))
+        except Unproved:
+            return False
 
     return subdivide(box, decided, most=most)
 
@@ -222,39 +225,46 @@ def prove_shift(
     return claims
 
 
-def shifts(sampled: Sampled, saddles: Sequence[Floats], box: Sequence[Range]) -> Iterator[Frames]:
-    """Yield candidates of horseshoes: laps on the line, then sets over two saddle points."""
-    if len(box) == 1 and not sampled.map.circles:
-        with suppress(Undecided):
-            yield laps(sampled, box[0])
-    pairs = sorted(combinations(saddles, 2), key=lambda pair: distance(sampled, *pair))
-    for length in range(2, _LONGEST_WORD + 1):
-        seen = []
-        for pair in pairs[:_MOST_PAIRS]:
-            with suppress(Undecided, np.linalg.LinAlgError):
-                candidates = frames(sampled, pair, length)
-                seen.append((crossing(sampled, candidates), candidates))
-        for _, candidates in sorted(seen, key=lambda each: -each[0])[:_MOST_PROOFS]:
-            yield candidates
+class Candidates(NamedTuple):
+    """Where horseshoes of an iterate are looked for.
+
+    saddles: points over which sets are looked for, neighbours first; share: of the usual work.
+    """
+
+    saddles: Sequence[Floats]
+    box: Sequence[Range]
+    power: int = 1
+    share: float = 1.0
+
+    def frames(self, sampled: Sampled) -> Iterator[Frames]:
+        """Yield candidates: laps on the line, then sets over two saddle points."""
+        if len(self.box) == 1 and not sampled.map.circles:
+            with suppress(Undecided):
+                yield laps(sampled, self.box[0])
+        pairs = sorted(combinations(self.saddles, 2), key=lambda pair: distance(sampled, *pair))
+        for length in range(2, _LONGEST_WORD + 1):
+            seen = []
+            for pair in pairs[: int(_MOST_PAIRS * self.share)]:
+                with suppress(Undecided, np.linalg.LinAlgError):
+                    candidates = frames(sampled, pair, length)
+                    seen.append((crossing(sampled, candidates), candidates))
+            ordered = sorted(seen, key=lambda each: -each[0])
+            for _, candidates in ordered[: max(1, int(_MOST_PROOFS * self.share))]:
+                yield candidates
 
 
-def find_horseshoe(
-    file: Derivation,
-    function: str,
-    saddles: Sequence[Floats],
-    box: Sequence[Range],
-    power: int = 1,
-) -> list[str]:
+def find_horseshoe(file: Derivation, function: str, candidates: Candidates) -> list[str]:
     """Prove a full shift on two symbols for an iterate; raises Undecided where none is found.
 
-    saddles: points over which sets are looked for, neighbours first. Returns the steps.
+    Returns the steps.
     """
-    sampled, reason = Power(file.map(function), power), "no candidate is seen"
-    with metered(_WORK):
-        for candidates in shifts(sampled, saddles, box):
+    power, reason = candidates.power, "no candidate is seen"
+    sampled = Sampled(file.map(function)).iterate(power)
+    with metered(_WORK * candidates.share):
+        for sets in candidates.frames(sampled):
             kept = {*file.steps}
             try:
-                return prove_shift(file, function, power, candidates, 2)
+                return prove_shift(file, function, power, sets, 2)
             except (Undecided, Unproved, Exhausted) as error:
                 is_late = isinstance(error, Exhausted)
                 reason = "candidates take too long to prove" if is_late else str(error)

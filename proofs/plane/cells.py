@@ -7,16 +7,17 @@ from collections.abc import Iterator, Sequence
 from time import thread_time
 
 from intervals import Undecided
-from proofs.plane import horseshoe, settling, singles
+from proofs.plane import horseshoe, settling, singles, systems
 from proofs.plane.horseshoe import Sets
-from proofs.plane.steps import Steps
 from proofs.plane.store import SPLIT, Row
 from proofs.trusted.atlas import Region, proved
+from proofs.trusted.certificate import parse
 from proofs.trusted.kernel.meter import DEFAULT, Exhausted, metered
 from proofs.trusted.parameters import Place
 from proofs.trusted.questions import Question
+from proofs.trusted.subjects import Box, Oscillators, Systems
 from proofs.trusted.verdicts import Verdict
-from proofs.trusted.verify import Rejected, check
+from proofs.trusted.verify import Rejected
 
 _HINTS = 3  # sets of neighbours that are tried
 
@@ -41,13 +42,12 @@ def decide(region: Region, depth: int, todo: Sequence[tuple[str, str]]) -> list[
 def _decided(region: Region, depth: int, key: str, hints: Sequence[str]) -> Row:
     why = "no proof is found"
     try:
-        for made, sets in _proposals(region.asked, region.box(key), hints):
+        for text, sets in _proposals(region, region.sides(key), hints):
             try:
-                text = made.certificate()
                 with metered(DEFAULT) as meter:
-                    said = proved(region, key, check(text))
+                    said = proved(region, key, parse(text))
                 packed = zlib.compress(text.encode())
-                return Row(key, *said, packed, meter.spent, sets=sets.text if sets else "")
+                return Row(key, *said, packed, meter.spent, sets=sets)
             except (Rejected, Exhausted) as failure:
                 why = str(failure).rpartition(": ")[2]
     except (Undecided, ArithmeticError) as failure:
@@ -57,13 +57,23 @@ def _decided(region: Region, depth: int, key: str, hints: Sequence[str]) -> Row:
     return Row(key, Verdict.UNDECIDED.value, conclusion=why)
 
 
-def _proposals(
-    asked: Question, box: Place, hints: Sequence[str]
-) -> Iterator[tuple[Steps, Sets | None]]:
-    """Yield certificates that seem to answer a question."""
+def _proposals(region: Region, sides: Box, hints: Sequence[str]) -> Iterator[tuple[str, str]]:
+    """Yield certificates that seem to answer a question, and what may help neighbours."""
+    asked, subject = region.asked, region.subject
+    if isinstance(subject, Oscillators):
+        yield from _about_oscillators(subject.at(sides), asked, hints)
+    elif isinstance(subject, Systems):
+        yield from systems.propose(subject, sides, asked, hints)
+
+
+def _about_oscillators(
+    box: Place, asked: Question, hints: Sequence[str]
+) -> Iterator[tuple[str, str]]:
     if asked.kind == "entropy":
-        yield from horseshoe.propose(box, [Sets.of(hint) for hint in hints], asked.size)
-    elif asked.kind == "orbits":
-        yield singles.propose(box, asked.size), None
+        known = [Sets.of(hint) for hint in hints]
+        for made, sets in horseshoe.propose(box, known, asked.size):
+            yield made.certificate(), sets.text if sets else ""
     else:
-        yield from ((made, None) for made in settling.propose(box))
+        steps = [singles.propose(box, asked.size)] if asked.kind == "orbits" else None
+        for made in steps or settling.propose(box):
+            yield made.certificate(), ""

@@ -17,8 +17,11 @@ from proofs.plane.settling import settles
 from proofs.plane.steps import Steps, corners
 from proofs.search.portrait import FALLS, RISES, Seen, continues
 from proofs.search.shifts import Piece, expanding, families, symbols, with_spare
+from proofs.trusted.certificate import texts
+from proofs.trusted.flights import lifted
 from proofs.trusted.numbers import Range
 from proofs.trusted.parameters import Place
+from proofs.trusted.windows import BITS
 
 Floats = NDArray[np.float64]
 
@@ -27,6 +30,7 @@ _FARTHEST = 200.0
 _LEAST = 1e-4  # by which images must seem to reach beyond the sets
 _SHARE, _BEST = 0.2, 0.8  # least and best, of that in units of how images differ over a box
 _TRIES = 3
+_UNIT = Fraction(1, 2**20)  # of times
 
 
 class Sets(NamedTuple):
@@ -137,11 +141,25 @@ def _margin(phases: Sequence[Range], images: Floats) -> float:
 
 
 def _covering(box: Place, sets: Sets) -> Steps:
-    """Return the steps for rule `covering-shift`."""
+    """Return the steps for rule `covering-graph`: each set is a branch, their hull the one state.
+
+    The image of an end is bracketed between that of the hull's end which it is beyond, and that of
+    an end of the window of the impact.
+    """
     made = Steps(box)
-    cells = [
-        {"flights": made.impacts(phases, latest), "turns": str(turns)}
-        for phases, turns, latest in zip(*sets, strict=True)
-    ]
-    made.add("covering-shift", {"cells": cells})
+    eta, nu = (each[0] for each in corners(box))
+    target, names, images = (sets.phases[0][0], sets.phases[-1][1]), [], []
+    for phases, turns, latest in zip(*sets, strict=True):
+        flights = made.impacts(phases, latest)
+        witness = {"flights": [name for name, _ in flights], "turn": str(turns)}
+        names.append(made.add("branch", witness))
+        for phase, (_, times) in zip(phases, (flights[0], flights[-1]), strict=True):
+            low, high = lifted((target[0] - phase, target[1] - phase), turns, BITS)
+            early = min(low // _UNIT * _UNIT, times[-1])
+            late = max(-(-high // _UNIT) * _UNIT, times[-2])
+            is_below = float_gap(box.side, eta, nu, float(phase), float(early)) < 0
+            time = (times[-2], early) if is_below else (late, times[-1])
+            images.append({"phase": str(phase), "time": texts(time)})
+    graph = {"states": [texts(target)], "weights": ["1"], "growth": str(len(names))}
+    made.add("covering-graph", {"branches": names, "images": images, **graph})
     return made

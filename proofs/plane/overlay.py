@@ -18,6 +18,7 @@ from proofs.trusted.certificate import SCHEMA, render
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.paper.beyond.grazing import GrazingCurve, nu_squared, ratio
 from proofs.trusted.paper.beyond.meetings import Meeting
+from proofs.trusted.subjects import Oscillators
 from proofs.trusted.verify import premises
 
 PERIODS = 5  # of the table, at most, between the impacts of an orbit
@@ -44,7 +45,9 @@ class Overlay(NamedTuple):
 
 def overlay(region: Region) -> Overlay:
     """Return the curves that pass through a region; none for a range of epsilon."""
-    least, epsilon = region.epsilon or (Fraction(0),) * 2
+    if not isinstance(region.subject, Oscillators):
+        return Overlay([], [])
+    least, epsilon = region.subject.epsilon or (Fraction(0),) * 2
     if least < epsilon:
         return Overlay([], [])
     proved = _grazing(region, epsilon)
@@ -56,11 +59,12 @@ def overlay(region: Region) -> Overlay:
         for each in (all_of(proved, Meeting) if proved else ())
     ]
     lines = [Line(name, n, part) for name, n, points in found for part in _inside(region, points)]
-    return Overlay(lines, [place for place in meetings if _holds(region, place)])
+    return Overlay(lines, [place for place in meetings if holds(region, place)])
 
 
-def _holds(region: Region, place: tuple[float, float]) -> bool:
-    (low, high), (least, most) = region.eta, region.nu
+def holds(region: Region, place: tuple[float, float]) -> bool:
+    """Whether a point is in a region."""
+    (low, high), (least, most) = region.sides_of
     return low <= place[0] <= high and least <= place[1] <= most
 
 
@@ -68,9 +72,7 @@ def _inside(region: Region, points: Points) -> Iterator[Points]:
     """Yield the parts of a curve that pass through a region, with an end outside on each side."""
     part: Points = []
     for one, two in pairwise(points):
-        if any(map(math.isnan, (one[1], two[1]))) or not (
-            _holds(region, one) or _holds(region, two)
-        ):
+        if any(map(math.isnan, (one[1], two[1]))) or not (holds(region, one) or holds(region, two)):
             if part:
                 yield part
             part = []
@@ -81,7 +83,7 @@ def _inside(region: Region, points: Points) -> Iterator[Points]:
 
 
 def _closed(region: Region, q: Fraction) -> Iterator[tuple[str, int, Points]]:
-    low, high = region.eta
+    low, high = region.first
     windows = [
         (n, k)
         for n in range(1, PERIODS + 1)
@@ -126,5 +128,5 @@ def _near(region: Region, n: int, q: Fraction, run: list[Seen]) -> list[Seen]:
 
 def _crosses(region: Region, one: tuple[float, float], two: tuple[float, float]) -> bool:
     """Whether the box around two points meets a region."""
-    sides = zip(one, two, (region.eta, region.nu), strict=True)
+    sides = zip(one, two, region.sides_of, strict=True)
     return all(min(a, b) <= side[1] and max(a, b) >= side[0] for a, b, side in sides)

@@ -17,12 +17,13 @@ from markupsafe import Markup
 from proofs.plane import overlay, picture, summary
 from proofs.plane.picture import Shown
 from proofs.plane.store import LEAVES, Row, Store, key_of, quarters
-from proofs.report.atlases import impacts
+from proofs.report.atlases import about, areas
 from proofs.report.html import rendered
 from proofs.report.layout import percent
 from proofs.report.typeset import begun
 from proofs.trusted.atlas import NOT_YET, Region
 from proofs.trusted.numbers import show, show_range
+from proofs.trusted.subjects import Oscillators
 from proofs.trusted.verdicts import Verdict
 
 MOST = 200_000  # cells of a page
@@ -69,8 +70,8 @@ def data(region: Region, cells: Iterable[Row]) -> dict[str, Any]:
     """
     leaves = {}
     for cell in cells:
-        eta, nu = map(show_range, region.sides(cell.key))
-        leaves[cell.key] = said(cell, eta, nu), eta, nu
+        across, up = map(show_range, region.sides(cell.key))
+        leaves[cell.key] = said(cell, across, up), across, up
     patterns, codes = _coded(each for each, _, _ in leaves.values())
     index = {text: k for k, text in enumerate(dict.fromkeys(codes.values()))}
     inner = {key[:k] for key in leaves for k in range(key.index("/") + 1, len(key))}
@@ -147,7 +148,7 @@ def size(key: str, depth: int) -> int:
 def _on_map(region: Region, number: int) -> list[float]:
     """Return left, right, bottom and top of a root, in shares of the region's sides."""
     root = region.roots[number]
-    sides = zip(root, (region.eta, region.nu), strict=True)
+    sides = zip(root, region.sides_of, strict=True)
     return [float((end - low) / (high - low)) for ends, (low, high) in sides for end in ends]
 
 
@@ -179,7 +180,7 @@ def page(store: Store, shown: Shown, certificates: Sequence[str]) -> str:
     (made, found, over), region = shown, store.region
     shares = made["share_of_area"]
     whole = data(region, store.cells(*LEAVES))
-    numbers = {name: percent(share) for name, share in shares.items()}
+    numbers = {name: percent(share) for name, share in shares.items()} | areas(shares)
     layers = [
         Layer(kind, colour, summary.words(kind), numbers[kind], made["kinds"][kind], paths)
         for kind, colour in picture.coloured([*found]).items()
@@ -190,7 +191,10 @@ def page(store: Store, shown: Shown, certificates: Sequence[str]) -> str:
         region=region,
         sides={name: show_range(side) for name, side in _sides(region)},
         made=made,
-        impacts=begun(impacts(made.get("epsilon"))),
+        labels=picture.labels(region),
+        command=" ".join(map(str.upper, region.names)),
+        about=begun(about(made)),
+        has_curves=isinstance(region.subject, Oscillators),
         numbers=numbers,
         verdicts=[x for x in Verdict if made["cells"].get(x.value)],
         not_yet=NOT_YET,
@@ -203,7 +207,7 @@ def page(store: Store, shown: Shown, certificates: Sequence[str]) -> str:
         periods=overlay.PERIODS,
         certificates=[(name, _named(region, name)) for name in certificates],
         side=SIDE,
-        data=Markup(_json(whole)),
+        data=Markup(_json({**whole, "names": picture.labels(region)})),
         ends=Markup(_json({name: [*map(float, side)] for name, side in _sides(region)})),
     )
 
@@ -213,13 +217,13 @@ def _json(value: Any) -> str:
 
 
 def _sides(region: Region) -> list[tuple[str, tuple[Any, Any]]]:
-    return [("eta", region.eta), ("nu", region.nu)]
+    return list(zip(("eta", "nu"), region.sides_of, strict=True))
 
 
 def _named(region: Region, name: str) -> str:
     """Return the box of the cell that a certificate is about."""
-    eta, nu = (show(low) for low, _ in region.sides(key_of(name)))
-    return f"eta from {eta}, nu from {nu}"
+    lows = (show(low) for low, _ in region.sides(key_of(name)))
+    return ", ".join(f"{each} from {low}" for each, low in zip(region.names, lows, strict=True))
 
 
 def _paths(region: Region, keys: Sequence[str]) -> Iterator[tuple[str, str]]:
@@ -244,7 +248,7 @@ def _square(key: str, depth: int) -> str:
 def _in_map(region: Region, place: tuple[float, float]) -> tuple[str, str]:
     x, y = (
         SIDE * (end - float(low)) / float(high - low)
-        for end, (low, high) in zip(place, (region.eta, region.nu), strict=True)
+        for end, (low, high) in zip(place, region.sides_of, strict=True)
     )
     return f"{x:.1f}", f"{SIDE - y:.1f}"
 

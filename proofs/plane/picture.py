@@ -9,7 +9,7 @@ from fractions import Fraction
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from proofs.plane.overlay import GRAZING, Line, Overlay, overlay
+from proofs.plane.overlay import GRAZING, Line, Overlay, holds, overlay
 from proofs.plane.store import Store
 from proofs.plane.summary import joined, kinds, merged, words
 from proofs.report.figures import style
@@ -31,6 +31,7 @@ STROKES = MappingProxyType(
         "where it begins to stick": (style.BLACK, 1.0, (1, 2)),
     }
 )  # colour, width, dashes
+_GREEK = MappingProxyType({"eta": "η", "nu": "ν"})
 _MOST_NAMED = 40  # lines: of more the names would hide the cells
 MEETINGS = "grazing meets another one"
 
@@ -49,6 +50,12 @@ def shown(store: Store, made: dict[str, Any]) -> Shown:
     for cell in store.cells(Verdict.VERIFIED, Verdict.REFUTED):
         found[cell.kind].append(cell.key)
     return Shown(made, {x: merged(keys) for x, keys in found.items()}, overlay(store.region))
+
+
+def labels(region: Region) -> tuple[str, str]:
+    """Return the names of the parameters as they are shown, the oscillator's in Greek."""
+    one, two = (_GREEK.get(name, name) for name in region.names)
+    return one, two
 
 
 def coloured(found: Sequence[str]) -> dict[str, str]:
@@ -71,7 +78,8 @@ def picture(region: Region, shown: Shown) -> Drawing:
         label = f"{words(kind)}: {percent(shares[kind])}"
         style.proved_boxes(axes, joined(boxes), colour, label, lw=0)
     _draw_lines(axes, region, over)
-    axes.set(xlabel=r"$\eta$", ylabel=r"$\nu$", xlim=_ends(region.eta), ylim=_ends(region.nu))
+    across, up = labels(region)
+    axes.set(xlabel=across, ylabel=up, xlim=_ends(region.first), ylim=_ends(region.second))
     axes.set_title(f"{region.question}: {made['holds']}", wrap=True)
     drawing.legend(*axes.get_legend_handles_labels(), loc="outside lower left", ncols=2)
     return drawing
@@ -110,10 +118,6 @@ def _draw_lines(axes: Axes, region: Region, over: Overlay) -> None:
 
 def named(region: Region, line: Line) -> tuple[float, float]:
     """Return where the name of a line is: along it, inside of a region, for each kind elsewhere."""
-    inside = [
-        place
-        for place in line.points
-        if region.eta[0] <= place[0] <= region.eta[1] and region.nu[0] <= place[1] <= region.nu[1]
-    ]
+    inside = [place for place in line.points if holds(region, place)]
     share = (1 + [*STROKES].index(line.name)) / (1 + len(STROKES))
     return inside[int(len(inside) * share)] if inside else line.points[0]

@@ -37,16 +37,18 @@ class Steps:
         times = times_for(Flights(self.box, phases), latest)
         return self.add("first-impact", {"phases": texts(phases), "times": texts(times)}), times
 
-    def impacts(self, phases: Range, latest: float, halvings: int = _HALVINGS) -> list[str]:
-        """Add the same in parts where that must be; return their names, in order."""
+    def impacts(
+        self, phases: Range, latest: float, halvings: int = _HALVINGS
+    ) -> list[tuple[str, list[Fraction]]]:
+        """Add the same in parts where that must be, in order."""
         try:
-            return [self.impact(phases, latest)[0]]
+            return [self.impact(phases, latest)]
         except Undecided:
             if not halvings:
                 raise
         low, high = phases
         parts = (low, (low + high) / 2), ((low + high) / 2, high)
-        return [name for part in parts for name in self.impacts(part, latest, halvings - 1)]
+        return [each for part in parts for each in self.impacts(part, latest, halvings - 1)]
 
     def certificate(self) -> str:
         """Return the certificate's text."""

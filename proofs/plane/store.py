@@ -16,7 +16,7 @@ from contextlib import closing, contextmanager, suppress
 from pathlib import Path
 from typing import NamedTuple
 
-from proofs.trusted.atlas import DEEPEST, FIELDS, LEFT_OUT, NOT_YET, Region
+from proofs.trusted.atlas import DEEPEST, LEFT_OUT, NOT_YET, Region
 from proofs.trusted.certificate import Malformed, texts
 from proofs.trusted.verdicts import Verdict
 
@@ -146,7 +146,7 @@ class Store:
         proof = None if row.certificate is None else json.loads(row.text)
         sides = map(texts, self.region.sides(row.key))
         values = row.key, *sides, row.verdict, row.kind, row.conclusion, proof
-        held = dict(zip(FIELDS, values, strict=True))
+        held = dict(zip(self.region.fields, values, strict=True))
         return json.dumps(held, separators=(",", ":"), ensure_ascii=False) + "\n"
 
 
@@ -190,7 +190,7 @@ def opened(folder: Path, region: Region | None) -> Iterator[Store]:
 
 def _read(path: Path, text: str) -> Region:
     try:
-        return Region.of(text)
+        return Region.read(text)
     except Malformed as error:
         raise Held(f"{path} is of another version ({error}): make it anew elsewhere") from None
 

@@ -11,20 +11,23 @@ from hashlib import sha256
 from typing import Any
 
 from proofs.plane.store import LEAVES, Row, Store, quarters
-from proofs.trusted.atlas import LEFT_OUT, NOT_YET, Box, Region, area
+from proofs.trusted.atlas import LEFT_OUT, NOT_YET, Region, area
 from proofs.trusted.certificate import texts
 from proofs.trusted.numbers import Range, floor_text, show_range
+from proofs.trusted.subjects import Box
 
 _VERDICTS = [verdict.value for verdict in LEAVES]
 _LINE = 300  # work of the checker on a line, beside the certificate
 _WORDS = {
-    "CoveringShift": "a full shift is a factor of f",
+    "EntropyBound": "a full shift is a factor of f",
     "StickingMotion": "a superstable periodic motion that sticks",
     "ReturningMotion": "a stable periodic motion, sticking or not",
     "StableOrbit": "a stable periodic orbit that does not stick",
     "AllStick": "every motion sticks, and is periodic then",
     "AtRest": "every motion comes to rest",
     "StableSingles": "a stable single-impact orbit",
+    "PeriodicOrbit": "a periodic orbit",
+    "Entropy": "positive topological entropy",
 }
 
 
@@ -61,7 +64,7 @@ def summary(store: Store) -> dict[str, Any]:
             areas[cell.kind] += size
         else:
             reasons[cell.conclusion] += 1
-    whole = area((region.eta, region.nu))
+    whole = area(region.sides_of)
     areas[LEFT_OUT] = whole - sum(map(area, region.roots), Fraction(0))
     areas[NOT_YET] = whole - areas[LEFT_OUT] - sum(areas[name] for name in _VERDICTS)
     named = (*_VERDICTS, *kinds(counts), NOT_YET, LEFT_OUT)
@@ -69,7 +72,7 @@ def summary(store: Store) -> dict[str, Any]:
         **json.loads(region.text),
         "holds": region.asked.holds,
         "opposite": region.asked.opposite,
-        "parts": [dict(zip(("eta", "nu"), map(texts, root), strict=True)) for root in region.roots],
+        "parts": [dict(zip(region.names, map(texts, root), strict=True)) for root in region.roots],
         "cells": dict(cells),
         "share_of_area": {name: floor_text(areas[name] / whole) for name in named},
         "kinds": {kind: counts[kind] for kind in kinds(counts)},
@@ -83,9 +86,9 @@ def summary(store: Store) -> dict[str, Any]:
 def lines(made: dict[str, Any], region: Region) -> Iterator[str]:
     """Yield what a summary says, for the screen."""
     question, shares = region.asked, made["share_of_area"]
-    yield f"{region.question}: for all oscillators of a cell, {question.holds}."
+    yield f"{region.question}: for all parameters of a cell, {question.holds}."
     yield f"Opposite: {question.opposite}."
-    if len(region.roots) > 1 or 0 in region.nu:
+    if len(region.parts) > 1 or region.parts[0] != region.sides_of:
         sides = ([show_range(side) for side in root] for root in region.roots)
         parts = "; ".join(f"eta {eta}, nu {nu}" for eta, nu in sides)
         yield f"The region is cut at eta = 1 and nu = 0, next to which a strip is left out: {parts}"
@@ -125,10 +128,10 @@ def joined(boxes: Iterable[Box]) -> list[Box]:
     return found
 
 
-def at(store: Store, eta: Fraction, nu: Fraction) -> Row | None:
+def at(store: Store, first: Fraction, second: Fraction) -> Row | None:
     """Return the cell that holds a point; None where there is none yet."""
     for cell in store.cells(*LEAVES):
         (left, right), (low, high) = store.region.sides(cell.key)
-        if left <= eta <= right and low <= nu <= high:
+        if left <= first <= right and low <= second <= high:
             return cell
     return None

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from proofs.report.layout import percent
-from proofs.trusted.certificate import Malformed
+from proofs.report.layout import percents
+from proofs.trusted.atlas import NOT_YET
+from proofs.trusted.certificate import Malformed, Reader
+from proofs.trusted.kernel.maps import Map, read_map
 from proofs.trusted.numbers import show, show_range
 from proofs.trusted.verdicts import Verdict
 
@@ -41,8 +43,14 @@ def _found(folder: Path) -> Iterator[Atlas]:
             raise Malformed(f"no summary of an atlas beside {page}") from None
 
 
-def impacts(epsilon: Sequence[str] | None) -> str:
-    """Return in words what impacts an atlas is about, by the ends of epsilon in its summary."""
+def about(made: dict[str, Any]) -> str:
+    """Return in words which systems an atlas is about, by its summary."""
+    if "functions" in made:
+        maps: dict[str, Map] = {}
+        for name, function in made["functions"].items():
+            maps[name] = read_map(name, Reader(function), maps)
+        return maps[made["function"]].definition
+    epsilon: Sequence[str] | None = made.get("epsilon")
     if epsilon is None:
         return "impacts are plastic"
     low, high = map(Fraction, epsilon)
@@ -50,15 +58,21 @@ def impacts(epsilon: Sequence[str] | None) -> str:
     return f"impacts have the restitution epsilon {within}"
 
 
+def areas(shares: Mapping[str, str]) -> dict[str, str]:
+    """Return in percent on what of the area there is which verdict, and what is left to do."""
+    names = (Verdict.VERIFIED.value, Verdict.REFUTED.value, Verdict.UNDECIDED.value, NOT_YET)
+    return percents({x: shares[x] for x in names}, Verdict.UNDECIDED.value)
+
+
 def _told(link: str, made: dict[str, Any]) -> Atlas:
     sides = (
-        f"{name} in {show_range((Fraction(made[name][0]), Fraction(made[name][1])))}"
-        for name in ("eta", "nu")
+        f"{name} in {show_range((Fraction(low), Fraction(high)))}"
+        for name, (low, high) in made.get(
+            "parameters", {name: made.get(name) for name in ("eta", "nu")}
+        ).items()
     )
-    shares = [
-        (verdict, percent(made["share_of_area"][verdict.value]))
-        for verdict in Verdict
-        if made["cells"].get(verdict.value)
-    ]
-    about = ", ".join(sides), impacts(made.get("epsilon"))
-    return Atlas(link, made["question"], made["holds"], *about, shares)
+    shown = [verdict for verdict in Verdict if made["cells"].get(verdict.value)]
+    written = areas(made["share_of_area"])
+    shares = [(verdict, written[verdict.value]) for verdict in shown]
+    where = ", ".join(sides)
+    return Atlas(link, made["question"], made["holds"], where, about(made), shares)

@@ -36,7 +36,7 @@ _BETWEEN = re.compile(r"(-?\d+\.\d+) \\le (.+?) \\le (-?\d+\.\d+)")
 _PLACES = 18  # of decimals in a formula, that it fits a narrow screen
 _SPELT = {"epsilon": r"\varepsilon", "lam": r"\lambda"}
 _SIGNED_NUMBER = re.compile(r"(<m\w+[^>]*>[(\[=,∈≤]</m\w+>(?:<mrow>)?)<mo>−</mo>")  # no difference
-_FUNCTIONS = (r"\sin", r"\cos", r"\log", r"\exp", r"\sqrt", r"\partial")
+_FUNCTIONS = (r"\sin", r"\cos", r"\log", r"\exp", r"\sqrt", r"\arctan", r"\partial")
 
 
 def lines(conclusion: Conclusion) -> list[str]:
@@ -127,6 +127,8 @@ class _Latex(Printer):
         match tree:
             case Operation(op="sqrt"):
                 return rf"\sqrt{{{first}}}"
+            case Operation(op="atan"):
+                return rf"\arctan{inside}"
             case Operation(op=name):
                 return rf"\{name}{inside}"
             case Derivative(by=by):

@@ -29,8 +29,7 @@ from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.beyond.attractors import stable_orbit
-from proofs.trusted.paper.beyond.returning import StickingMotion, sticking_motion
+from proofs.trusted.paper.beyond.returning import StickingMotion
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.slopes import SlopeRange
 
@@ -142,9 +141,8 @@ def _sticking(run: Run) -> Proof:
             raise Undecided(f"{_LONGEST} impacts after the separation the mass has not stuck")
         steep = math.prod(max(2 * abs(slope), 1.0) for _, slope in points)
         parts = _around(prover, points, min(_RADIUS, _LEAST / steep), 2.0)
-    found = sticking_motion(arc, [part for _, part in parts])
     witness = {"separation": name, "cells": _cells(parts), "beyond": None, "landing": None}
-    return [(prover.add("sticking-motion", witness), found)]
+    return [prover.derive("sticking-motion", witness)]
 
 
 def _followed(run: Run, phase: float) -> Iterator[tuple[float, float]]:
@@ -182,8 +180,7 @@ def _stable(run: Run) -> Proof:
         with suppress(*FAILED), prover.undone():
             slope = math.prod(max(abs(slope), _LEAST) for _, slope in points)
             parts = _around(prover, points, _RADIUS, slope ** (-1 / len(points)))
-            found = stable_orbit([part for _, part in parts])
-            proof.append((prover.add("stable-orbit", {"cells": _cells(parts)}), found))
+            proof.append(prover.derive("stable-orbit", {"cells": _cells(parts)}))
     if not proof:
         raise Undecided("no orbit is seen to come to a stable one without sticking")
     return proof

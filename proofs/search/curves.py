@@ -196,9 +196,7 @@ class Curves:
         for _ in range(_WIDENINGS):  # what has one zero may have it in a wider box alone
             image = krawczyk(formula, around, matrix)
             around = tuple(
-                side
-                if side[0] < each.inf and each.sup < side[1]
-                else _wider(hull([side, (each.inf, each.sup)]))
+                side if side[0] < each[0] and each[1] < side[1] else _wider(hull([side, each]))
                 for side, each in zip(around, image.values(), strict=True)
             )
         require_zero(formula, around, matrix)

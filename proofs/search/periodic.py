@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
@@ -24,11 +23,10 @@ from proofs.search.shifts import pairs, pieces
 from proofs.search.steps import Prover
 from proofs.trusted.flights import FirstImpact
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s31_horseshoe import ROWS
-from proofs.trusted.paper.staying import StayingSet
+from proofs.trusted.paper.staying import horseshoes
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.slopes import image_arc
-from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verdicts import Found
 
 _TRIES = 12  # of sets that are found
 _AT_ONCE = 4000  # orbits
@@ -36,70 +34,49 @@ _DIGITS = 14
 
 
 def horseshoe(of: Parameters) -> ImpactMap:
-    """Prove that I0 and I1 make a full horseshoe, by the claims H1 and H5; Undecided if not.
-
-    The proof of H5 has f(left end) and f(right end), mod 2 pi, in [0, 2 pi) on both sides of I,
-    and f increasing by less than 2 pi between them; so the turns that f(phi) = phi + t leaves
-    out are the same on all of I_j, those that take phi + t at the left end to its f.
-    """
-    proofs = prove(of, ("H1", "H5")).proofs
-    known = {claim: [found for _, found in proof] for claim, proof in proofs.items()}
-    decisions = {row.id: row.decide(of, known[row.id]) for row in ROWS if row.id in known}
-    for claim, decision in decisions.items():
-        if decision.verdict is not Verdict.VERIFIED:
-            beside = next((x for x in known[claim] if isinstance(x, StayingSet)), None)
-            raise Undecided(_refusal(decision.why, beside))
-    expanding, covering = decisions["H1"], decisions["H5"]
-    least = min(expanding.quantities[f"slope_min_I{j}"][0] for j in (0, 1))
-    if not least > 1:
-        raise Undecided("f' > 1 is not proved")
-    images = [covering.quantities[f"image_low_I{j}"] for j in (0, 1)]
-    return _impact_map(of, least, images)
+    """Prove that I0 and I1 make a full horseshoe; Undecided if not, with sets that do."""
+    try:
+        return _full_shift(of, of.left, of.right)
+    except FAILED as failure:
+        known = [found for _, found in prove(of, ("H5",)).proofs["H5"]]
+        beside = next((f"; it is one on {x.sets}" for x in horseshoes(Found(of, known))), "")
+        raise Undecided(f"no horseshoe is proved: {failure}{beside}") from None
 
 
 def own_horseshoe(of: Parameters) -> ImpactMap:
-    """Prove a full shift on two sets that are found, f increasing or decreasing on each.
-
-    By the rule `staying-set` f is monotone and C^1 on both, |f'| > 1. Here both images must be
-    intervals of phases as well, that contain both sets: then they contain I, and the turns that are
-    left out are the same on all of a set, as in `horseshoe`.
-    """
-    system = System(of.eta, of.nu)
-    for left, right in islice(pairs(pieces(system)), _TRIES):
+    """Prove a full shift on two sets that are found, f increasing or decreasing on each."""
+    for left, right in islice(pairs(pieces(System(of.eta, of.nu))), _TRIES):
         with suppress(*FAILED):
-            prover = Prover(system, _DIGITS, HORIZON)
-            steps = [prover.slopes(list(domain)) for domain in (left, right)]
-            shift = prover.stays([left, right], list(zip(steps, (left, right), strict=True)))[1]
-            parts = [part for _, part in steps]
-            if shift.full and all(image_arc(part).is_interval for part in parts):
-                sets = replace(of, left=left, right=right, interval=(left[0], right[1]))
-                images = [part.images[0] for part in parts]
-                return _impact_map(sets, shift.expansion, images)
+            return _full_shift(of, left, right)
     raise Undecided(f"no two sets are found at {of.place} with both images across both")
 
 
-def _impact_map(of: Parameters, least: Fraction, images: Sequence[Range]) -> ImpactMap:
-    """Return the map, images being those of the left ends of I0 and I1; |f'| >= least there."""
+def _full_shift(of: Parameters, left: Range, right: Range) -> ImpactMap:
+    """Prove that f maps two sets over each other, and return it there.
+
+    By the rule `staying-set` f is monotone and C^1 on both, |f'| > 1. Here both images must be
+    intervals of phases as well, that contain both sets: so the turns that f(phi) = phi + t leaves
+    out are the same on all of a set, those that take phi + t at the left end to its f.
+    """
     prover = Prover(System(of.eta, of.nu), _DIGITS, HORIZON)
+    steps = [prover.slopes(list(domain)) for domain in (left, right)]
+    shift = prover.stays([left, right], list(zip(steps, (left, right), strict=True)))[1]
+    arcs = [image_arc(part) for _, part in steps]
+    if not (shift.full and all(arc.is_interval for arc in arcs)):
+        raise Undecided("; ".join(arc.brief for arc in arcs))
     turns, parts = list[int](), list[FirstImpact]()
-    for domain, ends in zip((of.left, of.right), images, strict=True):
+    for domain, (_, found) in zip((left, right), steps, strict=True):
         around = Fraction(float_down(domain[0])), Fraction(float_up(domain[1]))
-        found = prover.impacts(around)
-        time = Branch(found, prover.bits).flight(domain[0], domain[0])[1]
-        whole = (Interval(*time) + domain[0] - Interval(*ends)) / turn(53)
+        impacts = prover.impacts(around)
+        time = Branch(impacts, prover.bits).flight(domain[0], domain[0])[1]
+        whole = (Interval(*time) + domain[0] - Interval(*found.images[0])) / turn(53)
         count = round(whole.mid)
         if not (whole.contains(count) and whole.wid < 1):
             raise ArithmeticError("an impact is at another phase than it was proved to be")
         turns.append(count)
-        parts += [part for _, part in found]
-    return ImpactMap(of, least, tuple(parts), (turns[0], turns[1]))
-
-
-def _refusal(why: str, corrected: StayingSet | None) -> str:
-    """Say why there is no proof, and on which sets there is one."""
-    if corrected is None:
-        return f"no horseshoe is proved: {why}"
-    return f"no horseshoe is proved: {why}; it is one on {corrected.sets}"
+        parts += [part for _, part in impacts]
+    sets = replace(of, left=left, right=right, interval=(left[0], right[1]))
+    return ImpactMap(sets, shift.expansion, tuple(parts), (turns[0], turns[1]))
 
 
 def of_words(

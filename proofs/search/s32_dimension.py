@@ -51,7 +51,7 @@ class _Run:
     prover: Prover
     digits: int
     tell: Tell
-    letters: dict[Range, tuple[list[str], Letter]] = field(default_factory=dict)
+    letters: dict[Range, tuple[str, Letter]] = field(default_factory=dict)
     inverses: dict[Any, tuple[Inverses, Remembered, int]] = field(default_factory=dict)
 
     def attempt(self, make: Callable[[], tuple[str, Repeller]]) -> Proof:
@@ -62,13 +62,13 @@ class _Run:
         self.letters = letters
         return []
 
-    def letter(self, domain: Phases) -> tuple[list[str], Letter]:
+    def letter(self, domain: Phases) -> tuple[str, Letter]:
         """Prove the first impact transversal on all of a domain, once."""
         if domain not in self.letters:
-            names, proved = zip(*self.prover.impacts(domain), strict=True)
-            cuts = (domain[0], *(part.motion.phases[1] for part in proved))
             turns = InverseBranch(self.prover.system, domain).turns
-            self.letters[domain] = [*names], Letter(cuts, proved, turns)
+            flights = [name for name, _ in self.prover.impacts(domain)]
+            name, branch = self.prover.derive("branch", {"flights": flights, "turn": str(turns)})
+            self.letters[domain] = name, Letter(branch)
         return self.letters[domain]
 
     def repeller(
@@ -82,7 +82,7 @@ class _Run:
 
         exponent: where the growth of the operator is asked for, not the dimension.
         """
-        flights, letters = zip(*map(self.letter, domains), strict=True)
+        names, letters = zip(*map(self.letter, domains), strict=True)
         self.tell("the inverse branches of f on an ellipse")
         sets = hull, tuple(domains), words
         if sets not in self.inverses:
@@ -94,10 +94,8 @@ class _Run:
         found = repeller(inverses, growth(known, trial, by), by.bits)
         scale = lcm(*(c.denominator for c in trial.coefficients))
         witness = {
-            "flights": list(flights),
-            "turns": [str(letter.turns) for letter in letters],
+            "branches": list(names),
             "hull": texts(hull),
-            "domains": [texts(letter.cuts) for letter in letters],
             "words": list(words),
             "rho": str(inverses.ellipse.rho),
             "arcs": str(arcs),

@@ -38,6 +38,7 @@ from proofs.trusted.equations import (
 from proofs.trusted.flights import Motion, lifted
 from proofs.trusted.kernel.arithmetic import pi
 from proofs.trusted.numbers import Range
+from proofs.trusted.paper.branches import Branch
 from proofs.trusted.paper.s34_circle.absorption import (
     BRACKET,
     UNIT,
@@ -46,7 +47,6 @@ from proofs.trusted.paper.s34_circle.absorption import (
     followed,
 )
 from proofs.trusted.paper.s34_circle.cells import Cell
-from proofs.trusted.paper.s34_circle.entropy import Branch
 from proofs.trusted.paper.s34_circle.landing import Lands, NeverImpacts, Separation
 from proofs.trusted.windows import BITS
 
@@ -58,7 +58,6 @@ _HALVINGS, _NEWTON = 20, 5  # steps to an inverse image: close first, then by Ne
 _WIDER = 6  # than between its ends what is proved of the derivative may be
 _ONWARD = 60  # images of the ends of branches that are cuts
 _SLOW = 3e-3  # gap' from which on floats seem to tell an impact's time
-Turn = int | None
 
 
 @dataclass
@@ -206,8 +205,8 @@ def _inside(low: Fraction, high: Fraction) -> tuple[float, float]:
 def after_reversal(system: System, branch: Branch) -> Fraction:
     """Return a time before the impacts of a branch, after the last zero of sin(eta t)."""
     half = math.pi / float(system.eta)
-    last = math.floor(float(min(branch.ends)) / half) * half
-    return max(branch.begin, short(Fraction(last + 1e-3), 20))
+    last = math.floor(float(min(end for _, end in branch.windows)) / half) * half
+    return max(branch.times[0], short(Fraction(last + 1e-3), 20))
 
 
 # -- in floating point ---------------------------------------------------------------------------

@@ -25,7 +25,8 @@ from proofs.trusted.certificate import texts
 from proofs.trusted.flights import lifted
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import Range, within
-from proofs.trusted.paper.s34_circle.entropy import Branch, EntropyBound, entropy_bound
+from proofs.trusted.paper.branches import Branch
+from proofs.trusted.paper.s34_circle.entropy import EntropyBound
 from proofs.trusted.paper.s34_circle.other_sets import PRINTED
 from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.parameters import Parameters
@@ -113,17 +114,7 @@ def _record(prover: Prover, found: Branches, subshift: Subshift) -> tuple[str, E
         for end in (max(low, first), min(high, last))
     }
     kept = sorted({index for index, _ in used})
-    bound = entropy_bound(
-        [found.branches[index] for index in kept],
-        {phase: found.image(index, phase) for index, phase in used},
-        subshift.states,
-        [Fraction(weight) for weight in subshift.vector],
-        growth,
-    )
-    images = [
-        {"phase": str(phase), "time": texts(found.times[index, phase])}
-        for index, phase in sorted(used)
-    ]
+    images = [found.bracket(index, phase) for index, phase in sorted(used)]
     witness = {
         "branches": [found.names[index] for index in kept],
         "images": images,
@@ -131,7 +122,7 @@ def _record(prover: Prover, found: Branches, subshift: Subshift) -> tuple[str, E
         "weights": list(map(str, subshift.vector)),
         "growth": str(growth),
     }
-    return prover.add("covering-graph", witness), bound
+    return prover.derive("covering-graph", witness)
 
 
 @dataclass
@@ -198,6 +189,11 @@ class Branches:
                     return image
             raise Undecided("no bracket of an impact time is proved")
         return self._images[index, phase]
+
+    def bracket(self, index: int, phase: Fraction) -> dict[str, object]:
+        """Return a phase, and the bracket by which its image is proved."""
+        self.image(index, phase)
+        return {"phase": str(phase), "time": texts(self.times[index, phase])}
 
 
 def _openings(about: Fraction, window: Range) -> Iterator[Range]:

@@ -25,12 +25,12 @@ from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.flights import Motion
 from proofs.trusted.numbers import Phases, Range
-from proofs.trusted.paper.s34_circle.entropy import Branch, EntropyBound
-from proofs.trusted.paper.s34_circle.grazing import Grazing, graze
+from proofs.trusted.paper.branches import Branch
+from proofs.trusted.paper.s34_circle.entropy import EntropyBound
+from proofs.trusted.paper.s34_circle.grazing import Grazing
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts
-from proofs.trusted.paper.s34_circle.laps import EntropyRange, OuterGraph, entropy_range
+from proofs.trusted.paper.s34_circle.laps import EntropyRange
 from proofs.trusted.paper.s34_circle.pieces import Pieces
-from proofs.trusted.windows import BITS
 
 _GRID = 1200
 _OUTSIDE = 1e-5  # how far outside of the phases that do not lead to the arc branches begin
@@ -63,24 +63,20 @@ class Laps:
         found = Branches(system, Candidates(system, system.eta.denominator - 1))
         for ends in found.candidates.runs(low - _OUTSIDE, high + _OUTSIDE, _GRID):
             found.prove(prover, *ends)
-        after = {one: after_reversal(system, one) for one in found.branches}
-        names = dict(zip(found.branches, found.names, strict=True))
         parts: list[Branch | NeverImpacts] = [*found.branches, silent]
         between = pairwise(sorted(parts, key=lambda each: each.phases))
         grazes = [prove_grazing(prover, found, *pair) for pair in between]
-        pieces = Pieces(
-            arc[1],
-            (landing.lands[0], landing.lands[1]),
-            tuple(sorted([*after, silent, *(g for _, g in grazes)], key=lambda x: x.phases)),
-        )
         witness = {
             "separation": arc[0],
             "lands": landing.entries["lands"],
-            "branches": [{"branch": names[x], "after": str(after[x])} for x in after],
+            "branches": [
+                {"branch": name, "after": str(after_reversal(system, branch))}
+                for name, branch in zip(found.names, found.branches, strict=True)
+            ],
             "grazings": [name for name, _ in grazes],
             "never": [never],
         }
-        return cls(prover, found, prover.add("pieces", witness), pieces)
+        return cls(prover, found, *prover.derive("pieces", witness))
 
     def bound(self, lower: tuple[str, EntropyBound], depth: int) -> tuple[str, EntropyRange]:
         """Record the step `itinerary-graph`, the growth rounded up."""
@@ -96,19 +92,15 @@ class Laps:
         states = outer_tower((region[0], region[1]), images, depth, _PLACES)
         ceiling = least_ceiling(states, images)
         growth = -Fraction(-ceiling.growth * 10**4 // 1, 10**4)
-        weights = [Fraction(each) for each in ceiling.vector]
-        found = entropy_range(
-            self.pieces, lower[1], known, OuterGraph(ceiling.states, weights, growth)
-        )
         witness = {
             "pieces": self.name,
             "lower": lower[0],
             "images": known.witness(),
             "states": [texts(state) for state in ceiling.states],
-            "weights": texts(weights),
+            "weights": list(map(str, ceiling.vector)),
             "growth": str(growth),
         }
-        return self.prover.add("itinerary-graph", witness), found
+        return self.prover.derive("itinerary-graph", witness)
 
 
 @dataclass
@@ -130,7 +122,7 @@ class Images:
 
     def bracket(self, phase: Fraction) -> dict[str, object]:
         """Return a phase and its bracket."""
-        return {"phase": str(phase), "time": texts(self.found.times[self.used[phase], phase])}
+        return self.found.bracket(self.used[phase], phase)
 
 
 # -- grazes ----------------------------------------------------------------------------------------
@@ -166,8 +158,6 @@ def record(
     landing: Range | None,
 ) -> tuple[str, Grazing]:
     """Prove and record a step `grazing`."""
-    motion = Motion(prover.at, phases, BITS)
-    found = graze(motion, turns, times, landing)
     witness = {
         "phases": texts(phases),
         "turn": str(turns[0]),
@@ -175,7 +165,7 @@ def record(
         "beyond": str(turns[1]),
         "landing": None if landing is None else texts(landing),
     }
-    return prover.add("grazing", witness), found
+    return prover.derive("grazing", witness)
 
 
 def rise(system: System, time: Fraction) -> Fraction:

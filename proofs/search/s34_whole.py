@@ -6,7 +6,7 @@ G17: the entropy from both sides. G18: what expands, and which words occur. H18:
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -28,14 +28,11 @@ from proofs.trusted.certificate import texts
 from proofs.trusted.equations import launch_acceleration
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import Phases, Range, hull
-from proofs.trusted.paper.s34_circle.cycles import Cycles, Outer, cycles, is_least, word_of
-from proofs.trusted.paper.s34_circle.entropy import Branch
+from proofs.trusted.paper.branches import Branch
+from proofs.trusted.paper.s34_circle.cycles import Cycles, Outer, is_least, word_of
 from proofs.trusted.paper.s34_circle.expansion import (
     BRACKET,
     Expansion,
-    Part,
-    beside,
-    expansion,
     part,
 )
 from proofs.trusted.paper.s34_circle.grazing import Grazing
@@ -102,14 +99,15 @@ def prove_expansion(laps: Laps) -> tuple[str, Expansion]:
         _Cutting(laps, piece, scale, scales)
         for piece, scale in zip(pieces.monotone, scales, strict=True)
     ]
-    parts = [[*each.parts(), *beside(each.piece)] for each in cutting]
+    for each in cutting:
+        each.cut()
     witness = {
         "pieces": laps.name,
         "cells": [each.witness() for each in cutting],
         "scales": texts(scales),
         "rate": str(_RATE),
     }
-    return laps.prover.add("expansion", witness), expansion(pieces, parts, scales, _RATE)
+    return laps.prover.derive("expansion", witness)
 
 
 @dataclass
@@ -122,39 +120,34 @@ class _Cutting:
     scales: Sequence[Fraction]
     times: dict[Fraction, Fraction] = field(default_factory=dict)
 
-    def parts(self) -> Iterator[Part]:
-        """Yield parts of the branch on which f expands from piece to piece."""
-        ends = self.piece.branch.phases
-        return self._halved(ends[0], ends[1], _DEEPEST)
+    def cut(self) -> None:
+        """Cut the branch into parts on which f expands from piece to piece."""
+        self._halve(*self.piece.branch.phases, _DEEPEST)
 
     def witness(self) -> dict[str, list[str]]:
         """Return the cuts and times."""
         cuts = sorted(self.times)
         return {"cuts": texts(cuts), "times": texts([self.times[cut] for cut in cuts])}
 
-    def _halved(self, low: Fraction, high: Fraction, depth: int) -> Iterator[Part]:
-        found = self._part(low, high)
-        if found is not None:
-            yield found
+    def _halve(self, low: Fraction, high: Fraction, depth: int) -> None:
+        if self._expands(low, high):
             return
         if depth == 0:
             raise Undecided("f is not seen to expand from piece to piece")
         half = round((low + high) / 2, 14)
-        yield from self._halved(low, half, depth - 1)
-        yield from self._halved(half, high, depth - 1)
+        self._halve(low, half, depth - 1)
+        self._halve(half, high, depth - 1)
 
-    def _part(self, low: Fraction, high: Fraction) -> Part | None:
-        """Return what f is between two phases, if it expands there."""
+    def _expands(self, low: Fraction, high: Fraction) -> bool:
+        """Whether f expands between two phases."""
         try:
-            found = part(
-                self.piece.branch, (low, high), hull([self._image(low), self._image(high)])
-            )
+            image = hull([self._image(low), self._image(high)])
+            bound, (first, last) = part(self.piece.branch, (low, high), image)
         except Unproved:
-            return None
-        bound, (first, last) = found
+            return False
         targets = zip(self.laps.pieces.monotone, self.scales, strict=True)
         reached = [s for x, s in targets if x.phases[0] <= last and first <= x.phases[1]]
-        return found if all(_RATE * bound * self.scale <= scale for scale in reached) else None
+        return all(_RATE * bound * self.scale <= scale for scale in reached)
 
     def _image(self, phase: Fraction) -> Range:
         """Prove a bracket of the impact, and enclose the image."""
@@ -180,23 +173,20 @@ def prove_cycles(laps: Laps, grown: tuple[str, Expansion]) -> tuple[str, Cycles]
         if is_least(word) and not outer.dies(word, state)
     ]
     pieces = grown[1].pieces.monotone
-    phases, orbits = [], []
+    orbits = []
     for word in alive:
         orbit = _cycle(laps, [pieces[i].branch for i in word])
         with suppress(*FAILED):
-            mapped = [(x, points(x)) for x in orbit]
-            if word_of(grown[1], mapped, _RADIUS) == word:
-                phases.append(orbit)
-                orbits.append(mapped)
-    found = cycles(known, grown[1], orbits, _RADIUS, _LONGEST)
+            if word_of(grown[1], [(x, points(x)) for x in orbit], _RADIUS) == word:
+                orbits.append(orbit)
     witness = {
         "expansion": grown[0],
-        "orbits": [[points.bracket(x) for x in orbit] for orbit in phases],
+        "orbits": [[points.bracket(x) for x in orbit] for orbit in orbits],
         "radius": str(_RADIUS),
         "longest": str(_LONGEST),
         "images": known.witness(),
     }
-    return laps.prover.add("cycles", witness), found
+    return laps.prover.derive("cycles", witness)
 
 
 def _cycle(laps: Laps, branches: Sequence[Branch]) -> list[Fraction]:

@@ -17,7 +17,30 @@ SECONDS, BYTES = 3e-6, 60  # for a unit of work: three times what it takes at mo
 
 
 class Overrun(BaseException):
-    """The CPU time is used up."""
+    """The time is used up. No Exception, so that nobody's `except Exception` takes it."""
+
+
+@contextmanager
+def within(seconds: float, clock: str = "REAL") -> Iterator[None]:
+    """End what is done inside by Overrun after so many seconds, where the system has such an alarm.
+
+    clock: REAL, or VIRTUAL for seconds of work. It is raised again each second: what is raised
+    while an object is finalised is lost.
+    """
+    if not hasattr(signal, "setitimer") or threading.current_thread() != threading.main_thread():
+        yield
+        return
+    timer = getattr(signal, f"ITIMER_{clock}")
+    sent = {"REAL": signal.SIGALRM, "VIRTUAL": signal.SIGVTALRM}[clock]
+    before = signal.signal(sent, _overrun)
+    try:
+        signal.setitimer(timer, max(seconds, 1e-6), 1.0)
+        yield
+    finally:
+        with suppress(Overrun):  # one that comes just now
+            signal.setitimer(timer, 0)
+        signal.setitimer(timer, 0)
+        signal.signal(sent, before)
 
 
 @contextmanager

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import FrameType
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import proofs.trusted
 from proofs.trusted.certificate import parse, used_steps
 from proofs.trusted.verify import check
 
 _FOLDER = Path(proofs.trusted.__file__).parent
+T = TypeVar("T")
 
 
 class Trust(NamedTuple):
@@ -50,20 +51,25 @@ def trusted_for(source: str, work: float) -> Iterator[Trust]:
 
 def _files(source: str, work: float) -> tuple[tuple[str, int], ...]:
     """Return the files of the trusted part of which a function is called during a check."""
-    seen: set[str] = set()
-
-    def observe(frame: FrameType, event: str, _: object) -> None:
-        if event == "call" and frame.f_code.co_name != "<module>":
-            seen.add(frame.f_code.co_filename)
-
-    before = sys.getprofile()
-    sys.setprofile(observe)
-    try:
-        check(source, work)
-    finally:
-        sys.setprofile(before)
-    files = sorted(Path(name) for name in seen if Path(name).is_relative_to(_FOLDER))
+    _, called = watched(lambda: check(source, work))
+    files = sorted(Path(name) for name in called if Path(name).is_relative_to(_FOLDER))
     return tuple(
         (str(path.relative_to(_FOLDER)), len(path.read_text("utf-8").splitlines()))
         for path in files
     )
+
+
+def watched(run: Callable[[], T]) -> tuple[T, set[str]]:
+    """Return what a function returns, and the files of which functions are called meanwhile."""
+    files: set[str] = set()
+
+    def observe(frame: FrameType, event: str, _: object) -> None:
+        if event == "call" and frame.f_code.co_name != "<module>":
+            files.add(frame.f_code.co_filename)
+
+    before = sys.getprofile()
+    sys.setprofile(observe)
+    try:
+        return run(), files
+    finally:
+        sys.setprofile(before)

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import signal
-import threading
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
@@ -14,6 +11,7 @@ from time import perf_counter
 from intervals import IntervalError
 from proofs.benchmark.peers import Arithmetic, Range
 from proofs.motion.witness import Impossible, NoImpact
+from proofs.shell.backstop import Overrun, within
 from proofs.stress.cases import Answer, Case, Ranges, Truth
 
 _TURN_BITS = 800
@@ -57,39 +55,13 @@ class Judgement:
         return max(self.widths.values(), default=None)
 
 
-class TookTooLong(BaseException):
-    """The time is over. No Exception, so that nobody's `except Exception` takes it."""
-
-
-@contextmanager
-def limited(seconds: float) -> Iterator[None]:
-    """Raise TookTooLong after so many seconds of work, where the system has such an alarm.
-
-    It is raised again each second: what is raised while an object is finalised is lost.
-    """
-    if not hasattr(signal, "SIGVTALRM") or threading.current_thread() != threading.main_thread():
-        yield
-        return
-
-    def stop(number: int, frame: object) -> None:
-        raise TookTooLong
-
-    before = signal.signal(signal.SIGVTALRM, stop)
-    signal.setitimer(signal.ITIMER_VIRTUAL, seconds, 1.0)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_VIRTUAL, 0)
-        signal.signal(signal.SIGVTALRM, before)
-
-
 def judge(case: Case, kernel: Arithmetic, allowed: float = 1.0) -> Judgement:
     """Ask the library and the kernel, and compare."""
     began = perf_counter()
     try:
-        with limited(allowed):
+        with within(allowed, "VIRTUAL"):
             answer = case.answer()
-    except TookTooLong:
+    except Overrun:
         return Judgement(case, Outcome.STOPPED, allowed, "stopped: it took too long")
     except Exception as error:  # what is no refusal is a defect to be shown
         seconds, outcome = perf_counter() - began, Outcome.CRASHED

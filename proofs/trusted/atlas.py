@@ -1,14 +1,20 @@
-"""An atlas: a region of (eta, nu) in cells, each with what is proved at all oscillators of it.
+"""An atlas: a region of two parameters in cells, each with what is proved at all points of it.
 
-A region is cut where eta = 1 and nu = 0; its parts are numbered, the last one being the strip that
-is left out around nu = 0, if there is one. A cell is a part, "0/", or a quarter of a cell: "0/3",
-"0/31", ... A quarter's digit is 1 for the upper half of eta, and 2 more for the upper half of nu.
+The parameters are eta and nu of the paper's oscillator; or any two of a map or of a system that
+functions give, as certificates have them. A region is cut where its kind of system changes: the
+oscillator's at eta = 1 and nu = 0. Its parts are numbered, the last one being the strip that is
+left out around nu = 0, if there is one. A cell is a part, "0/", or a quarter of a cell: "0/3",
+"0/31", ... A quarter's digit is 1 for the upper half of the first parameter, and 2 more for the
+upper half of the second.
 
 An atlas is a file of lines, each a JSON object in the form of certificates. The first one has
-`schema`, `eta`, `nu`, `question`, and `epsilon` where impacts are not plastic. Then come the cells,
-those that are not cut, in the order of their keys: `cell` (the key), `eta` and `nu` (its box),
-`verdict`, `kind` and `says` (of the conclusion that decides it, the name and the words), and
-`certificate`. Without one a cell is undecided, not looked at, or left out; `says` may tell why.
+`schema`, `question` and, of the oscillator, `eta`, `nu`, and `epsilon` where impacts are not
+plastic; of other systems `parameters`, the two ranges by name, `functions`, which of them is asked
+about, `function`, and `region`, where it was looked for orbits: on that no theorem depends. Then
+come the cells, those that are not cut, in the order of their keys: `cell` (the key), the box by the
+names of the parameters, `verdict`, `kind` and `says` (of the conclusion that decides it, the name
+and the words), and `certificate`. Without one a cell is undecided, not looked at, or left out;
+`says` may tell why.
 """
 
 from __future__ import annotations
@@ -22,20 +28,19 @@ from functools import cached_property, partial
 from itertools import pairwise, product
 from typing import NamedTuple
 
-from proofs.trusted.certificate import Malformed, parse, texts
+from proofs.trusted.certificate import Malformed, Reader, parse
 from proofs.trusted.kernel.meter import DEFAULT, METER, metered
 from proofs.trusted.numbers import Range
-from proofs.trusted.parameters import Place
-from proofs.trusted.questions import Question, question
+from proofs.trusted.questions import Question
+from proofs.trusted.subjects import PLASTIC, Box, Oscillators, Subject, Systems
 from proofs.trusted.verdicts import Verdict
-from proofs.trusted.verify import Rejected, Report, check_document
+from proofs.trusted.verify import Rejected, check_document
 
 SCHEMA = "impact-proofs.atlas/2"
-FIELDS = ("cell", "eta", "nu", "verdict", "kind", "says", "certificate")
+_BEFORE, _AFTER = ("cell",), ("verdict", "kind", "says", "certificate")
 NOT_YET, LEFT_OUT = "not looked at", "left out"
 DEEPEST = 40
 _WORK = 100  # on a cell, beside its certificate
-Box = tuple[Range, Range]
 
 
 # -- the region and its cells ----------------------------------------------------------------------
@@ -43,53 +48,66 @@ Box = tuple[Range, Range]
 
 @dataclass(frozen=True)
 class Region:
-    """The parameters of an atlas, and what is asked there; epsilon as in `Place`."""
+    """The ranges of two parameters, what is asked there, and of which systems."""
 
-    eta: Range
-    nu: Range
+    first: Range
+    second: Range
     question: str
-    epsilon: Range | None = None
+    subject: Subject = PLASTIC
 
     def __post_init__(self) -> None:
         """Raise ValueError, one line, where there is nothing to look at."""
-        for name, (low, high) in (("eta", self.eta), ("nu", self.nu)):
+        for name, (low, high) in zip(self.names, self.sides_of, strict=True):
             if low >= high:
                 raise ValueError(f"{name}: reversed or empty range")
-        if self.eta[0] <= 0:
-            raise ValueError("eta must be positive")
-        asked, (least, most) = self.asked, self.epsilon or (Fraction(0),) * 2
-        if not 0 <= least <= most < 1:
-            raise ValueError("epsilon: a number or a range in [0, 1) is expected")
-        if self.epsilon is not None and asked.plastic:
-            raise ValueError(f"{self.question} is asked for plastic impacts alone, without epsilon")
+            if name in (*_BEFORE, *_AFTER):
+                raise ValueError(f"a parameter of an atlas is not named {name!r}, as a column is")
+        self.subject.require(self.first, self.second, self.question)
+
+    @property
+    def names(self) -> tuple[str, str]:
+        """The names of the parameters."""
+        return self.subject.names
+
+    @property
+    def fields(self) -> tuple[str, ...]:
+        """The fields of a cell's line."""
+        return (*_BEFORE, *self.names, *_AFTER)
+
+    @property
+    def sides_of(self) -> Box:
+        """Both ranges."""
+        return self.first, self.second
 
     @property
     def asked(self) -> Question:
         """What is asked."""
-        return question(self.question)
+        return self.subject.question(self.question)
 
     @cached_property
     def roots(self) -> list[Box]:
-        """The parts between the lines eta = 1 and nu = 0; of those at nu = 0, all but a strip.
+        """The parts between the cuts; next to one of the second parameter, all but a strip.
 
         The strip is 2^-20 times as wide as its part.
         """
-        etas, nus = _cut(self.eta, Fraction(1)), []
-        for low, high in _cut(self.nu, Fraction(0)):
+        at, zero = self.subject.cuts
+        firsts, seconds = _cut(self.first, at), []
+        for low, high in _cut(self.second, zero):
             strip = (high - low) / 2**20
-            nus.append((low + strip * (low == 0), high - strip * (high == 0)))
-        return [(eta, nu) for nu, eta in product(nus, etas)]
+            seconds.append((low + strip * (low == zero), high - strip * (high == zero)))
+        return [(one, two) for two, one in product(seconds, firsts)]
 
     @cached_property
     def parts(self) -> list[Box]:
         """The roots, and the strip beside them: together the region."""
-        if not self.nu[0] <= 0 <= self.nu[1]:
+        zero = self.subject.cuts[1]
+        if zero is None or not self.second[0] <= zero <= self.second[1]:
             return self.roots
-        zero, (_, first), (_, last) = Fraction(0), self.roots[0], self.roots[-1]
-        return [*self.roots, (self.eta, (min(first[1], zero), max(last[0], zero)))]
+        (_, first), (_, last) = self.roots[0], self.roots[-1]
+        return [*self.roots, (self.first, (min(first[1], zero), max(last[0], zero)))]
 
     def sides(self, key: str) -> Box:
-        """Return eta and nu of a cell, which may be the strip; Malformed where there is none."""
+        """Return the box of a cell, which may be the strip; Malformed where there is none."""
         number, slash, path = key.partition("/")
         parts = {f"{i}": part for i, part in enumerate(self.parts)}
         deepest = 0 if number == f"{len(self.roots)}" else DEEPEST
@@ -102,34 +120,29 @@ class Region:
             sides.append((low + unit * index, low + unit * (index + 1)))
         return sides[0], sides[1]
 
-    def box(self, key: str) -> Place:
-        """Return the oscillators of a cell; Malformed where there is none, Unproved for a strip."""
-        return Place(*self.sides(key), self.epsilon)
-
     @property
     def text(self) -> str:
         """The region as it is written."""
-        sides = {"eta": texts(self.eta), "nu": texts(self.nu)}
-        more = {} if self.epsilon is None else {"epsilon": texts(self.epsilon)}
-        held = {"schema": SCHEMA, **sides, "question": self.question, **more}
-        return json.dumps(held, separators=(",", ":"))
+        held = {"schema": SCHEMA, **self.subject.written(self.sides_of, self.question)}
+        return json.dumps(held, separators=(",", ":"), ensure_ascii=False)
 
     @classmethod
-    def of(cls, text: str) -> Region:
+    def read(cls, text: str) -> Region:
         """Read what is written."""
         document = parse(text)
-        more = ["epsilon"] if document.has("epsilon") else []
-        schema, eta, nu, name, *rest = document.fields("schema", "eta", "nu", "question", *more)
-        if schema.string() != SCHEMA:
-            raise schema.fail(f"the schema is not {SCHEMA!r}")
+        kind = Systems if document.has("functions") else Oscillators
         try:
-            return cls(eta.range(), nu.range(), name.string(), *(each.range() for each in rest))
+            schema, first, second, asked, subject = kind.read(document)
+            if schema != SCHEMA:
+                raise document.fail(f"the schema is not {SCHEMA!r}")
+            return cls(first, second, asked, subject)
         except ValueError as error:
             raise error if isinstance(error, Malformed) else Malformed(str(error)) from None
 
 
-def _cut(side: Range, at: Fraction) -> list[Range]:
-    ends = [side[0], *([at] if side[0] < at < side[1] else []), side[1]]
+def _cut(side: Range, at: Fraction | None) -> list[Range]:
+    is_cut = at is not None and side[0] < at < side[1]
+    ends = [side[0], *([at] if is_cut and at is not None else []), side[1]]
     return list(pairwise(ends))
 
 
@@ -142,13 +155,14 @@ def area(box: Box) -> Fraction:
 # -- the check -------------------------------------------------------------------------------------
 
 
-def proved(region: Region, key: str, report: Report) -> tuple[str, str, str]:
+def proved(region: Region, key: str, certificate: Reader) -> tuple[str, str, str]:
     """Return verdict, kind and words of a cell whose certificate proves this.
 
     Raises Rejected where that answers nothing here: it must be about the cell's box, and say one
     thing, which decides the question.
     """
-    if report.parameters != region.box(key):
+    report = check_document(certificate)
+    if not region.subject.is_about(certificate, report, region.sides(key)):
         raise Rejected(f"cell {key}: the certificate is about other parameters")
     verdict = region.asked.verdict(report.conclusions)
     if verdict is Verdict.UNDECIDED:
@@ -164,16 +178,16 @@ def check_cell(region: Region, numbered: tuple[int, str]) -> tuple[str, str]:
     number, line = numbered
     METER.get().spend(_WORK)
     try:
-        key_of, eta, nu, *said, certificate = parse(line).fields(*FIELDS)
+        key_of, one, two, *said, certificate = parse(line).fields(*region.fields)
         key, (verdict, kind, says) = key_of.string(), (each.string() for each in said)
-        if (eta.range(), nu.range()) != region.sides(key):
+        if (one.range(), two.range()) != region.sides(key):
             raise Rejected(f"cell {key}: its box is another one")
         is_strip = key == f"{len(region.roots)}/"
         if is_strip or certificate.is_null():
             may_be = [LEFT_OUT] if is_strip else [Verdict.UNDECIDED.value, NOT_YET]
             if verdict not in may_be or kind or not certificate.is_null():
                 raise Rejected(f"cell {key}: nothing proves what it says")
-        elif (verdict, kind, says) != proved(region, key, check_document(certificate)):
+        elif (verdict, kind, says) != proved(region, key, certificate):
             raise Rejected(f"cell {key}: its certificate proves something else")
     except (Malformed, Rejected) as error:
         raise type(error)(f"line {number}: {error}") from None
@@ -201,7 +215,7 @@ def check_atlas(
     """
     with metered(work):
         unread = iter(lines)
-        region = Region.of(next(unread, ""))
+        region = Region.read(next(unread, ""))
         cells, areas = Counter[str](), Counter[tuple[str, int]]()
         ended = 0  # in units of the smallest cells, `full` of which are a part
         full = 4**DEEPEST
@@ -218,5 +232,5 @@ def check_atlas(
     shares = dict.fromkeys(cells, Fraction(0))
     for (verdict, part), count in areas.items():
         shares[verdict] += Fraction(count, full) * area(region.parts[part])
-    whole = area((region.eta, region.nu))
+    whole = area(region.sides_of)
     return Areas(cells, {verdict: share / whole for verdict, share in shares.items()})

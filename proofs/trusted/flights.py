@@ -216,26 +216,6 @@ def bracketed(step: FirstImpact, phases: Range, time: Range) -> Motion:
     raise Unproved("a bracket does not have the signs +, - at its ends")
 
 
-def excess(step: FirstImpact, phase: Fraction, image: Range, turns: int, bits: int) -> int:
-    """Return the sign of phase + t - 2 pi turns - x for all x in `image`, 0 if undecided.
-
-    t is the time of the phase's transversal first impact; let T = x - phase + 2 pi turns. In the
-    window the gap has the one zero t; it is positive before that and negative after. T < t: 1.
-    """
-    time = lifted((image[0] - phase, image[1] - phase), turns, bits)
-    begin, end = step.windows[0]
-    if time[1] < begin or time[0] > end:
-        return 1 if time[1] < begin else -1
-    motion = replace(step.motion, phases=(phase, phase), bits=bits)
-    for gap_of in (motion.gap_of, motion.sharp_gap):
-        height = gap_of(time, 0)
-        if height.lo > 0 and time[1] <= end:
-            return 1
-        if height.hi < 0 and begin <= time[0]:
-            return -1
-    return 0
-
-
 # -- phases ----------------------------------------------------------------------------------------
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
-from itertools import pairwise
+from itertools import count, pairwise
 from typing import Self
 
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -61,15 +61,9 @@ def show(value: Fraction) -> str:
     """
     if max(abs(value.numerator), value.denominator).bit_length() > _LONGEST:
         raise Unproved("a number with too many digits to be written")
-    rest, twos, fives = value.denominator, 0, 0
-    while rest % 2 == 0:
-        rest, twos = rest // 2, twos + 1
-    while rest % 5 == 0:
-        rest, fives = rest // 5, fives + 1
-    places = max(twos, fives)
-    if rest != 1 or places > _MOST_PLACES:
+    if 10**_MOST_PLACES % value.denominator:
         return str(value)
-    return _decimal(value, places)
+    return _decimal(value, next(n for n in count() if 10**n % value.denominator == 0))
 
 
 def _decimal(value: Fraction, places: int) -> str:

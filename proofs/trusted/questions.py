@@ -7,11 +7,15 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.paper.beyond.attractors import AtRest, StableOrbit
-from proofs.trusted.paper.beyond.boxes import MOST_CELLS, AllStick, CoveringShift
+from proofs.trusted.kernel.cycle import ATTRACTING, PeriodicOrbit
+from proofs.trusted.kernel.graph import Entropy
+from proofs.trusted.paper.beyond.attractors import AllStick, AtRest, StableOrbit
 from proofs.trusted.paper.beyond.returning import ReturningMotion, StickingMotion
 from proofs.trusted.paper.beyond.singles import MOST_PERIODS, StableSingles
+from proofs.trusted.paper.s34_circle.entropy import EntropyBound
 from proofs.trusted.verdicts import Verdict
+
+_MOST_CELLS = 50
 
 
 class Question(NamedTuple):
@@ -37,12 +41,13 @@ class Question(NamedTuple):
         return Verdict.UNDECIDED
 
 
+_NEVER = "none of this is ever refuted"
 _ATTRACTORS = StickingMotion, ReturningMotion, StableOrbit, AllStick, AtRest
 _ATTRACTOR = Question(
     "attractor",
     0,
     "a periodic motion, or rest, attracts all motions from an open set of phases",
-    "none of this is ever refuted",
+    _NEVER,
     lambda found: isinstance(found, _ATTRACTORS),
     lambda found: False,
 )
@@ -56,7 +61,7 @@ def _entropy(count: int) -> Question:
         f"f is continuous on {number} disjoint intervals of phases and maps each over {every}: the "
         f"full {count}-shift is a factor of f, of entropy log {count}",
         "every motion comes to rest, or sticks at its second impact: f or f(f) is constant",
-        lambda found: isinstance(found, CoveringShift) and len(found.cells) >= count,
+        lambda found: isinstance(found, EntropyBound) and len(found.cells) >= count,
         lambda found: isinstance(found, AtRest | AllStick),
     )
 
@@ -79,7 +84,40 @@ def _orbits(most: int) -> Question:
     )
 
 
-_SIZED = {"entropy": (_entropy, 2, MOST_CELLS), "orbits": (_orbits, 1, MOST_PERIODS)}
+OF_MAPS = "orbits:N, stable:N (N from 1 to 60), horseshoe"
+
+
+def map_question(name: str, function: str) -> Question:
+    """Return what is asked of a map under a name; ValueError where that is nothing.
+
+    A conclusion answers if it is about this function of a file. Nothing is refuted.
+    """
+    kind, _, number = name.partition(":")
+
+    def is_orbit(found: Conclusion) -> bool:
+        if not isinstance(found, PeriodicOrbit) or found.function.name != function:
+            return False
+        is_asked = kind == "orbits" or found.stability == ATTRACTING
+        return is_asked and found.period == int(number)
+
+    def is_horseshoe(found: Conclusion) -> bool:
+        if not isinstance(found, Entropy) or found.growth < 2:
+            return False
+        return all(cover.local.map.name == function for cover in found.graph.covers)
+
+    if name == "horseshoe":
+        holds = "a compact invariant set of the map has positive topological entropy"
+        return Question(kind, 0, holds, _NEVER, is_horseshoe, lambda found: False, plastic=False)
+    if kind in ("orbits", "stable") and re.fullmatch("[1-5]?[0-9]|60", number) and int(number):
+        which = "an attracting" if kind == "stable" else "a"
+        holds = f"the map has {which} periodic orbit of the least period {number}"
+        return Question(
+            kind, int(number), holds, _NEVER, is_orbit, lambda found: False, plastic=False
+        )
+    raise ValueError(f"the question is one of {OF_MAPS}, not {name[:30]!r}")
+
+
+_SIZED = {"entropy": (_entropy, 2, _MOST_CELLS), "orbits": (_orbits, 1, MOST_PERIODS)}
 _SHORT = {"horseshoe": "entropy:2", "orbits": "orbits:10"}
 QUESTIONS = ("attractor", *_SHORT, *(f"{x}:{a} to {x}:{b}" for x, (_, a, b) in _SIZED.items()))
 

@@ -52,7 +52,7 @@ RULES: Mapping[str, str] = MappingProxyType(
         "never-impacts": "paper.s34_circle.landing.never_impacts",
         "absorption": "paper.s34_circle.absorption.absorption",
         "staying-set": "paper.staying.prove_staying_set",
-        "branch": "paper.s34_circle.entropy.branch",
+        "branch": "paper.branches.branch",
         "covering-graph": "paper.s34_circle.entropy.covering_graph",
         "grazing": "paper.s34_circle.grazing.grazing",
         "pieces": "paper.s34_circle.pieces.pieces",
@@ -70,8 +70,7 @@ RULES: Mapping[str, str] = MappingProxyType(
         "grazing-curve": "paper.beyond.grazing.grazing_curve",
         "grazing-meets": "paper.beyond.meetings.meeting",
         "stable-singles": "paper.beyond.singles.stable_singles",
-        "settles": "paper.beyond.boxes.prove_settles",
-        "covering-shift": "paper.beyond.boxes.prove_covering_shift",
+        "settles": "paper.beyond.attractors.prove_settles",
     }
 )
 

@@ -33,7 +33,7 @@ from proofs.trusted.rules import RULES, find_rule
 from proofs.trusted.verdicts import Verdict, told
 
 _MAX_TEXT = 1_000_000
-_STEP = 150  # work on a step, beside what is counted in its rule
+_STEP = 150  # work on a step or a function, beside what is counted there
 _LOOK = 20  # work of a row on one conclusion: whether it is of a kind, and about its oscillator
 
 
@@ -117,6 +117,7 @@ def _premises(document: Reader) -> Context:
         raise schema.fail(f"schema {schema.string()[:60]!r} is not {SCHEMA!r}; {again}")
     context = Context(subject_from_json(parameters_of))
     for name, each in functions_of.members():
+        METER.get().spend(_STEP)
         from proofs.trusted.kernel.maps import read_map  # that few files have
 
         try:

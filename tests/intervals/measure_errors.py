@@ -7,9 +7,9 @@ import numpy as np
 
 from intervals.elementary.binary64.arctangent import angle
 from intervals.elementary.binary64.exponential import exp
+from intervals.elementary.binary64.logarithm import sharp_log
 from intervals.elementary.binary64.monotone import FUNCTIONS
 from intervals.elementary.binary64.pair import Pair
-from intervals.elementary.binary64.realpower import _log
 from intervals.elementary.binary64.trigonometric import point_sincos
 from tests.intervals.binary64_oracle import BITS, plane_points, points, true_at
 
@@ -18,8 +18,8 @@ KERNELS["sin"] = lambda x: point_sincos(x)[0]
 KERNELS["cos"] = lambda x: point_sincos(x)[1]
 KERNELS["atan2"] = lambda y, x: angle(Pair(np.abs(y)), Pair(x)).with_sign_of(y + 0.0)
 KERNELS["hypot"] = lambda x, y: (Pair(x) * Pair(x) + Pair(y) * Pair(y)).sqrt()
-KERNELS["power"] = lambda x, y: exp(Pair(y) * _log(x))
-KERNELS["tan"] = lambda x: point_sincos(x)[0] / point_sincos(x)[1]
+KERNELS["power"] = lambda x, y: exp(Pair(y) * sharp_log(Pair(x)))
+KERNELS["tan"] = lambda x: point_sincos(x)[0].normal() / point_sincos(x)[1].normal()
 
 
 def proved(name, x):

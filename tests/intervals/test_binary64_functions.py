@@ -39,7 +39,7 @@ def test_points(name):
 def test_errors_are_within_the_proved_bounds(name):
     _, error, k = errors(name, points(name, 5 * QUICK, seed=3))
     assert error.max() <= k <= FUNCTIONS[name].k
-    assert binary64.ERRORS[name] <= 2 * FUNCTIONS[name].k + 1.51
+    assert binary64.ERRORS[name] <= 2 * FUNCTIONS[name].k + 1.54
 
 
 @every_function
@@ -67,6 +67,8 @@ def test_blocks_and_shapes_do_not_show(name):
     parts = [binary64.monotone(name, rows(x[i : i + 7000])) for i in range(0, len(x), 7000)]
     assert (np.concatenate(parts, axis=1) == whole).all()
     assert (binary64.monotone(name, rows(x).reshape(2, 5, -1)).reshape(2, -1) == whole).all()
+    ones = [binary64.monotone(name, rows(x[i : i + 1])) for i in range(0, len(x), 400)]
+    assert (np.concatenate(ones, axis=1) == whole[:, ::400]).all()  # by Python's floats
     wide = binary64.monotone(name, rows(x, x + 0.01 * (x < 0.5)))
     assert (wide[0] == whole[0]).all() or name == "acos"
     assert binary64.monotone(name, np.empty((2, 0))).shape == (2, 0)

@@ -137,14 +137,12 @@ def test_what_was_recorded_is_what_is_proved(kind):
 def test_a_recording_keeps_to_itself():
     kept = []
     Formula(lambda x: kept.append(x) or x, 1)
-    with pytest.raises(TypeError, match="another"):
-        Formula(lambda x: x + kept[0], 1)
-    with pytest.raises(TypeError, match="2 variables"):
-        Formula(Formula(lambda x, y: x + y, 2), 1)
-    with pytest.raises(TypeError, match="float"):
-        Formula(lambda x: x + 0.5, 1)
-    with pytest.raises(TypeError, match="inf"):
-        Formula(lambda x: x.inf, 1)
+    for f, reason in (
+        *((lambda x: x + kept[0], "another"), (Formula(lambda x, y: x + y, 2), "2 variables")),
+        *((lambda x: x + 0.5, "float"), (lambda x: x.inf, "inf")),
+    ):
+        with pytest.raises(TypeError, match=reason):
+            Formula(f, 1)
     with pytest.raises(NameError):  # a mistake of the user's own
         Formula(lambda x: x + undefined, 1)  # noqa: F821
 

@@ -18,8 +18,8 @@ from intervals import ComplexInterval, Decorated, DomainError, Interval, Interva
 from tests.intervals import oracle
 from tests.intervals.boxes import MODERATE, boxes, for_all, inside, numbers, precisions
 from tests.intervals.oracle import encloses, outward, range_of, round_down, sqrt_down, sqrt_up
+from tests.intervals.test_array import BINARY
 
-BINARY = {"+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv}
 COMPARISONS = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge}
 FUNCTIONS = ("sin", "cos", "exp", "log")
 ZERO, ONE = Fraction(0), Fraction(1)

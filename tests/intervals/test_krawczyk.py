@@ -276,6 +276,6 @@ def test_four_variables(method):
 
 
 @pytest.mark.parametrize("operator", [krawczyk, newton_system])
-def test_a_box_is_a_sequence(operator):
-    with pytest.raises(TypeError, match="a box is a sequence"):
-        operator(lambda x: [x], Interval(0, 2))
+def test_one_interval_is_a_box(operator):
+    (root,) = operator(lambda x: x - 1, Interval(0, 3)).box
+    assert root == Interval(1)

@@ -84,13 +84,11 @@ def test_bare_floats_are_refused_with_a_hint(bad):
             with pytest.raises(TypeError, match="from_floats"):
                 op(*pair)
     for operation in (
-        lambda: np.where([[True], [False]], X, bad),
-        lambda: np.maximum(bad, X),
+        *(lambda: np.where([[True], [False]], X, bad), lambda: np.maximum(bad, X)),
+        lambda: np.concatenate((X[0], np.ones(3))),
     ):
         with pytest.raises(TypeError, match="from_floats"):
             operation()
-    with pytest.raises(TypeError, match="from_floats"):
-        np.concatenate((X[0], np.ones(3)))
 
 
 def test_what_has_no_meaning_raises():
@@ -270,44 +268,35 @@ def test_an_exact_number_may_come_first():
     assert same(np.maximum(np.array([1, 2, 3]), X), X.maximum(np.array([1, 2, 3])))
 
 
-COMPUTED = {  # a function of numpy's, and the same of exact numbers
-    "mean": (lambda a: np.mean(a, axis=0), lambda a: a.sum(axis=0) / Fraction(len(a))),
-    "mean of all": (np.mean, lambda a: np.array(a.sum() / Fraction(a.size))),
-    "diff": (np.diff, lambda a: np.diff(a)),
-    "second diff": (lambda a: np.diff(a, 2, axis=0), lambda a: np.diff(a, 2, axis=0)),
-    "cumsum": (np.cumsum, lambda a: np.cumsum(a)),
-    "cumsum of rows": (lambda a: np.cumsum(a, axis=1), lambda a: np.cumsum(a, axis=1)),
-    "trace": (lambda a: np.trace(a, 1), lambda a: np.array(np.trace(a, 1))),
-    "inner": (lambda a: np.inner(a, a), lambda a: np.inner(a, a)),
-    "inner of vectors": (lambda a: np.inner(a[0], a[1]), lambda a: np.array(np.inner(*a[:2]))),
-    "outer": (lambda a: np.outer(a[0], a[1]), lambda a: np.outer(a[0], a[1])),
-    "vdot": (lambda a: np.vdot(a, a), lambda a: np.array(np.vdot(a, a))),
-    "product of three": (
-        lambda a: np.einsum("ij,kj,il->kl", a, a, a),
-        lambda a: np.einsum("ij,kj,il->kl", a, a, a),
-    ),
-    "trace by subscripts": (
-        lambda a: np.einsum("ii", a[:, :3]),
-        lambda a: np.array(np.einsum("ii", a[:, :3])),
-    ),
-    "with ints": (
-        lambda a: np.einsum("ij,j->i", a, np.arange(4)),
-        lambda a: np.einsum("ij,j->i", a, np.array([0, 1, 2, 3], dtype=object)),
-    ),
-    "max": (lambda a: np.max(a, axis=1), lambda a: np.max(a, axis=1)),
-    "min": (np.min, lambda a: np.array(np.min(a))),
-    "clip": (lambda a: np.clip(a, -1, 2), lambda a: np.clip(a, -1, 2)),
-    "zeros": (np.zeros_like, lambda a: a * 0),
-    "ones": (np.ones_like, lambda a: a * 0 + 1),
+COMPUTED = {  # of intervals, and of the same exact numbers as objects
+    "mean": lambda a: np.mean(a, axis=0),
+    "mean of all": np.mean,
+    "diff": np.diff,
+    "second diff": lambda a: np.diff(a, 2, axis=0),
+    "cumsum": np.cumsum,
+    "cumsum of rows": lambda a: np.cumsum(a, axis=1),
+    "trace": lambda a: np.trace(a, 1),
+    "inner": lambda a: np.inner(a, a),
+    "inner of vectors": lambda a: np.inner(a[0], a[1]),
+    "outer": lambda a: np.outer(a[0], a[1]),
+    "vdot": lambda a: np.vdot(a, a),
+    "product of three": lambda a: np.einsum("ij,kj,il->kl", a, a, a),
+    "trace by subscripts": lambda a: np.einsum("ii", a[:, :3]),
+    "with ints": lambda a: np.einsum("ij,j->i", a, np.arange(4)),
+    "max": lambda a: np.max(a, axis=1),
+    "min": np.min,
+    "clip": lambda a: np.clip(a, -1, 2),
+    "zeros": np.zeros_like,
+    "ones": np.ones_like,
 }
 
 
 @pytest.mark.parametrize("name", COMPUTED)
 @for_all(st.data(), tries=20)
 def test_functions_that_compute_against_fractions(name, data):
-    ours, true = COMPUTED[name]
     values = data.draw(matrices(3, 4))
-    assert contains(ours(IntervalArray.from_floats(values)), true(exact(values)))
+    found = COMPUTED[name](IntervalArray.from_floats(values))
+    assert contains(found, np.array(COMPUTED[name](exact(values)), dtype=object))
 
 
 def test_largest_of_wide_intervals():

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 import intervals
 from intervals import Interval, IntervalArray, TightArray, convert
+from intervals.errors import DomainError
 from intervals.newton import Roots
 from intervals.rounding import MAX
 from tests.intervals.boxes import for_all
@@ -78,16 +79,41 @@ def test_conversions():
     assert convert.sympy(third).start == sympy.Rational(third.inf.numerator, third.inf.denominator)
     assert convert.interval(sympy.Rational(1, 3)) == third
     assert convert.interval(flint.arb(0.5)) == convert.interval(mpmath.mpf(0.5)) == Interval("1/2")
-    for bad in (mpmath.iv.mpf(1), sympy.pi, sympy.Symbol("x")):
+    for bad in (mpmath.iv.mpf(1), sympy.I, sympy.Symbol("x"), sympy.oo, sympy.Interval.open(0, 1)):
         with pytest.raises(TypeError):
             convert.interval(bad)
     assert convert.unproved_mpi(mpmath.iv.mpf([1, 2])) == Interval(1, 2)
 
 
+SQRT_2 = sympy.sqrt(2)
+OF_SYMPY = [
+    *(sympy.pi, SQRT_2, sympy.E**2, -sympy.pi / (1 + SQRT_2), sympy.log(3) - sympy.atan(7)),
+    *(sympy.Abs(sympy.sin(1) - 1), sympy.Max(sympy.pi, SQRT_2), sympy.Min(sympy.pi, SQRT_2)),
+    *(sympy.atan2(-1, -SQRT_2), sympy.tanh(2) ** sympy.Rational(1, 3), sympy.acosh(3) ** -3),
+]
+
+
+@pytest.mark.parametrize("number", OF_SYMPY, ids=str)
+def test_terms_of_sympy(number):
+    for precision in (30, 53, 200):
+        found = convert.interval(number, precision=precision)
+        true = Fraction(str(number.evalf(90)))
+        assert found.inf <= true <= found.sup
+        assert 0 < found.wid <= abs(true) * Fraction(16, 2**precision)
+
+
+def test_sets_of_sympy():
+    assert convert.interval(sympy.Interval(1, 3)) == Interval(1, 3)
+    assert convert.interval(sympy.Interval(0, SQRT_2)).contains("1.414")
+    with pytest.raises(DomainError):  # the principal root is not real
+        convert.interval(sympy.Pow(-8, sympy.Rational(1, 3), evaluate=False))
+
+
 def test_solvers_from_the_top():
     (root,) = intervals.zeros(lambda x: x.cos() - x, Interval(0, 1))
     assert root.outcome is Roots.UNIQUE
-    assert intervals.krawczyk(lambda x: x.cos() - x, [Interval(0, 1)]).outcome is Roots.UNIQUE
+    for box in ([Interval(0, 1)], Interval(0, 1)):
+        assert intervals.krawczyk(lambda x: x.cos() - x, box).outcome is Roots.UNIQUE
 
 
 A = IntervalArray([[1, 2, 0], [3, 4, 1], [1, 0, 5]])
@@ -110,6 +136,12 @@ NUMPYS = {  # what numpy does with ints, exactly
     "transpose": (lambda a, *_: a.transpose()),
     "transpose axes": (lambda a, *_: a.reshape((3, 3, 1)).transpose(2, 0, -2)),
     "reshape": (lambda a, *_: a.reshape((9,))),
+    "transpose by a tuple": (lambda a, *_: a.reshape([3, 3, 1]).transpose((2, 0, 1))),
+    "norm 1": (lambda a, *_: np.linalg.norm(a, 1)),
+    "norm inf": (lambda a, *_: np.linalg.norm(a, np.inf)),
+    "norm 1 of a vector": (lambda a, v, w: np.linalg.norm(w, 1)),
+    "norm inf of rows": (lambda a, *_: np.linalg.norm(a, np.inf, axis=1)),
+    "norm of rows, kept": (lambda a, *_: np.linalg.norm(a, 1, 1, keepdims=True)),
     "max": (lambda a, *_: a.max(axis=0)),
     "min": (lambda a, *_: a.min()),
     "dot": (lambda a, v, w: a.dot(v)),
@@ -132,6 +164,35 @@ def test_linear_algebra_of_numpy():
     assert len(np.linalg.eigvals(A)) == 3
     assert np.linalg.norm(V).item().contains(Interval(14, precision=100).sqrt())
     assert np.linalg.norm(A, axis=0).shape == (3,)
+    for ord in (None, 2):
+        assert np.linalg.norm(V, ord).item().contains(Interval(14, precision=100).sqrt())
+    assert (np.linalg.norm(A, "fro") == np.linalg.norm(A)).all()
+    for bad in ((A, 2), (A, -1), (V, 0), (V, "fro")):
+        with pytest.raises(TypeError, match="order"):
+            np.linalg.norm(*bad)
+
+
+@for_all(st.integers(1, 5), st.integers(0, 2**32), st.sampled_from([0, 1, 2]))
+def test_determinants_enclose(n, seed, rank_lost):
+    rng = np.random.default_rng(seed)
+    a = rng.integers(-9, 10, (n, n))
+    a[:, n - min(rank_lost, n - 1) :] = a[:, :1]
+    exact = sympy.Matrix(a.tolist()).det()
+    found = np.linalg.det(IntervalArray(a))
+    assert found.contains(int(exact)) and (rank_lost or found.wid <= 1e-9 * 9**n)
+    wide = np.linalg.det(IntervalArray(a).widen("1/9"))
+    assert wide.contains(int(exact)) and found.subset(wide.widen("1e-6"))
+    inner = sympy.Matrix(a.tolist()) + sympy.Matrix(n, n, [sympy.Rational(1, 10)] * n * n)
+    assert wide.contains(Fraction(str(inner.det())))
+
+
+def test_what_an_array_is_not_asked():
+    with pytest.raises(TypeError, match="many sets"):
+        _ = 1 in V
+    for ufunc, inputs in ((np.add, (V, V)), (np.sin, (V,))):
+        with pytest.raises(TypeError, match="does not change"):
+            ufunc(*inputs, out=np.zeros(3))
+    assert intervals.rootn(Fraction(8), 3) == Interval(2)
 
 
 infinite = st.sampled_from([-np.inf, -1.0, 0.0, 2.0, MAX, np.inf])

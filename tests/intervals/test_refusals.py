@@ -33,9 +33,8 @@ def test_odd_roots_of_negative_numbers(n):
     jet = rootn(Jet.variable(Interval(-5, -3), 2), n)
     below = rootn(Jet.variable(Interval(3, 5), 2), n)
     assert jet.value == Interval(-5, -3).rootn(n)
-    assert jet.derivative().contains(Fraction(1, 10)) == below.derivative().contains(
-        Fraction(1, 10)
-    )
+    tenth = Fraction(1, 10)
+    assert jet.derivative().contains(tenth) == below.derivative().contains(tenth)
 
 
 LOSSES = {
@@ -62,18 +61,9 @@ def test_decorated_and_bare_intervals_meet():
     assert (Interval(0) + ROOT).decoration == (ROOT * Interval(1)).decoration == ROOT.decoration
 
 
-REFUSED = {
-    "ij->k": ValueError,
-    "ij->iij": ValueError,
-    "...j->j": ValueError,
-    "ij->i1": ValueError,
-    "ij,jk->ik": ValueError,
-}
-
-
-@pytest.mark.parametrize("subscripts", REFUSED)
+@pytest.mark.parametrize("subscripts", ["ij->k", "ij->iij", "...j->j", "ij->i1", "ij,jk->ik"])
 def test_sums_that_einsum_has_not(subscripts):
-    with pytest.raises(REFUSED[subscripts]):
+    with pytest.raises(ValueError, match=r"einsum|zip"):
         np.einsum(subscripts, X)
 
 
@@ -151,9 +141,7 @@ def test_cumulated_sums_of_nothing(axis):
 def test_products_with_numbers():
     for a, b in ((2, X), (X, 2), (Interval(2), X)):
         assert np.dot(a, b).contains(X * 2).all()
-    assert same(
-        np.dot(X, [1, 0, 0] @ np.eye(3, dtype=int).astype(int)), X @ IntervalArray([1, 0, 0])
-    )
+    assert same(np.dot(X, np.array([1, 0, 0])), X @ IntervalArray([1, 0, 0]))
 
 
 def test_an_operator_of_fractions_is_told():

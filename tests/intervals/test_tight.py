@@ -1,26 +1,25 @@
 """Tight arrays against fractions: the least bounds there are; exact results of all arrays."""
 
+import math
 import operator
 import pickle
 from fractions import Fraction
 from itertools import product
 from math import inf, nextafter
 
+import mpmath
 import numpy as np
 import pytest
 from hypothesis import strategies as st
 
 from intervals import Interval, IntervalArray, TightArray
+from intervals.elementary.binary64 import ERRORS
 from intervals.rounding import MAX, float_down, float_up
+from tests.intervals.binary64_oracle import distances, plane_points
 from tests.intervals.boxes import for_all
 from tests.intervals.foreign_states import STATES, foreign, x86_linux
+from tests.intervals.test_array import BINARY
 
-OPERATIONS = {
-    "+": operator.add,
-    "-": operator.sub,
-    "*": operator.mul,
-    "/": operator.truediv,
-}
 mantissas = st.integers(-(2**53) + 1, 2**53 - 1) | st.integers(-9, 9)
 # mantissas that differ in the last bits only have ties, and products next to midpoints
 near = st.integers(2**52, 2**52 + 9) | st.integers(2**53 - 9, 2**53 - 1)
@@ -34,12 +33,12 @@ def exact(name, x, y):
     """The range at the corners, in fractions; None where 0 is in a divisor."""
     if name == "/" and y[0] <= 0 <= y[1]:
         return None
-    values = [OPERATIONS[name](Fraction(a), Fraction(b)) for a, b in product(x, y)]
+    values = [BINARY[name](Fraction(a), Fraction(b)) for a, b in product(x, y)]
     return min(values), max(values)
 
 
 @for_all(
-    st.sampled_from(sorted(OPERATIONS)), st.lists(st.tuples(sides, sides), min_size=1, max_size=14)
+    st.sampled_from(sorted(BINARY)), st.lists(st.tuples(sides, sides), min_size=1, max_size=14)
 )
 def test_bounds_are_the_least(name, pairs):
     pairs = [(x, y) for x, y in pairs if exact(name, x, y)]
@@ -47,7 +46,7 @@ def test_bounds_are_the_least(name, pairs):
         return
     for kind in (TightArray, IntervalArray):
         X, Y = (kind.from_floats(*np.array(ends).T) for ends in zip(*pairs, strict=True))
-        found = OPERATIONS[name](X, Y)
+        found = BINARY[name](X, Y)
         assert type(found) is kind
         for low, high, (x, y) in zip(found.inf.tolist(), found.sup.tolist(), pairs, strict=True):
             least, most = exact(name, x, y)
@@ -72,6 +71,67 @@ def test_squares_and_roots_are_the_least(ends):
             assert (
                 y * y <= x < beyond * beyond if step > 0 else beyond * beyond < x <= y * y or x == 0
             )
+
+
+# -- elementary functions, against mpmath at 200 bits ----------------------------------------------
+
+ARGUMENTS = {  # in units of 2^-60, with results between 2^-900 and 2^900
+    **dict.fromkeys(("exp", "expm1", "sinh", "cosh", "exp2"), (-600, 600)),
+    **dict.fromkeys(("asin", "acos", "atanh"), (-1, 1)),
+    **dict.fromkeys(("sin", "cos", "tan"), (-1024, 1024)),
+    **dict.fromkeys(("log", "log2", "log10", "acosh"), (1, 2**50)),
+    **dict.fromkeys(("tanh", "atan", "asinh", "cbrt"), (-(2**50), 2**50)),
+    "exp10": (-250, 250),
+    "log1p": (-1, 2**50),
+}
+OF_MPMATH = {
+    "exp2": lambda x: mpmath.power(2, x),
+    "exp10": lambda x: mpmath.power(10, x),
+    "log2": lambda x: mpmath.log(x, 2),
+    "cbrt": lambda x: mpmath.sign(x) * mpmath.cbrt(abs(x)),
+}
+
+
+def true_value(name, x):
+    """f(x) within 2^-150 of it, relatively."""
+    with mpmath.workprec(200 if abs(x) > 1e-3 else 500):
+        y = OF_MPMATH.get(name, getattr(mpmath, name, None))(mpmath.mpf(x))
+        man, exponent = y.man_exp
+        return (-1) ** (y < 0) * Fraction(int(man)) * Fraction(2) ** int(exponent)
+
+
+@pytest.mark.parametrize("name", sorted(ARGUMENTS))
+@for_all(st.lists(st.tuples(st.floats(0, 1), st.integers(-40, 0)), min_size=1, max_size=12))
+def test_elementary_functions_are_within_one_ulp_and_a_half(name, places):
+    low, high = ARGUMENTS[name]
+    near = 1.0 if name.startswith(("log", "acosh")) and name != "log1p" else 0.0
+    x = [near + t * 2.0**k * ((high if t > 0.5 else low) - near) for t, k in places]
+    x = [v for v in x if low < v < high]
+    if not x:
+        return
+    few = TightArray.from_floats(x)
+    for X in (few, np.concatenate([few] * 12)):  # one by one, and by numpy
+        found = getattr(X, name)()
+        assert type(found) is TightArray
+        for v, least, most in zip(x, found.inf.tolist(), found.sup.tolist(), strict=False):
+            true, ulp = true_value(name, v), Fraction(math.ulp(max(abs(least), abs(most))))
+            slack = abs(true) / 2**150
+            assert Fraction(least) <= true + slack and true - slack <= Fraction(most)
+            reach = max(true - Fraction(least), Fraction(most) - true)
+            assert reach <= Fraction(3, 2) * ulp, (name, v.hex())
+
+
+def test_bounds_that_are_proved():
+    """What the theorems say: 2 k ulps and one, for every function of arrays."""
+    assert max(ERRORS.values()) - 0.5 <= 1.5
+
+
+@pytest.mark.parametrize("name", ["power", "atan2", "hypot"])
+def test_functions_of_two_variables_are_as_tight(name):
+    x, y = plane_points(name, 400, 3)
+    method = {"power": TightArray.pow}.get(name) or getattr(TightArray, name)
+    found = method(*map(TightArray.from_floats, (x, y)))
+    assert distances(name, [x, y], found._rows).max() <= 1.5
 
 
 def test_sums_products_and_matrices_are_sharper():
@@ -149,9 +209,9 @@ def test_long_results_are_not_taken_for_exact(pairs, name):
     """Where the first and the last number are short, and those between them need not be."""
     numbers = [(0.5, 1.5), *pairs, (2.0, 4.0)]
     x, y = np.array([n for n in numbers if n[1]]).T
-    found = OPERATIONS[name](IntervalArray.from_floats(x), IntervalArray.from_floats(y))
+    found = BINARY[name](IntervalArray.from_floats(x), IntervalArray.from_floats(y))
     for low, high, a, b in zip(*(v.tolist() for v in (found.inf, found.sup, x, y)), strict=True):
-        true = OPERATIONS[name](Fraction(a), Fraction(b))
+        true = BINARY[name](Fraction(a), Fraction(b))
         assert Fraction(low) <= true <= Fraction(high)
 
 

@@ -16,6 +16,7 @@ _BLIND = {
     "work",
     "_windows",
     "_last",
+    "_proved",
 }  # the checker's machinery inside of conclusions
 _MORE = {  # properties that sentences or rows rest on
     "Separation": ("returns",),

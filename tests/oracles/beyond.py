@@ -8,7 +8,7 @@ import numpy as np
 
 from tests.oracles.circle import _released, separation_arc
 from tests.oracles.motion import TURN, Impact, flight, inside, next_impact, sticks
-from tests.oracles.plastic import _impact, maps_over, points, smooth
+from tests.oracles.plastic import _impact, points
 
 
 def _pushes(view, count=720):
@@ -68,24 +68,6 @@ def comes_to_rest(view, rng):
         if found in ("none", "touches"):
             return [f"after a rebound: {found}"]
     return []
-
-
-def covering_shift(view, rng):
-    """On disjoint cells f does not jump, and maps each over the interval from first to last."""
-    told, cells = [], view.cells
-    if len(cells) < 2 or any(b[0] <= a[1] for a, b in pairwise(cells)):
-        told.append("the cells are out of order or overlap")
-    for cell in cells:
-        if maps_over(view, cell, (cells[0][0], cells[-1][1])) in (False, None):
-            told.append(f"f does not map {cell} over all cells")
-        found = [_impact(view, phase) for phase in points(cell, rng, 5)]
-        slopes = [each.slope for each in found if isinstance(each, Impact)]
-        if len(slopes) < len(found):
-            told.append(f"launches from {cell} without a transversal impact")
-        steep = [float(slope) for slope in slopes] or [0.0]
-        bounds = min(steep) - 1 - abs(min(steep)) / 2, max(steep) + 1 + abs(max(steep)) / 2
-        told += smooth(view, cell, bounds, rng, 5)
-    return told
 
 
 def all_stick(view, rng):
@@ -177,7 +159,6 @@ def stable_orbit(view, rng):
 JUDGES = {
     "AllStick": all_stick,
     "AtRest": at_rest,
-    "CoveringShift": covering_shift,
     "Leaves": leaves,
     "NeverSticks": never_sticks,
     "OnlyTouches": only_touches,

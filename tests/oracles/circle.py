@@ -61,7 +61,8 @@ def separation_arc(view, rng):
     ):
         if not inside(own, given):
             told.append(f"the {name} of the impact is {own.str(15)}")
-    if not float(away) - TURN - 1e-9 < float(found.turned(view.turns)) < float(away):
+    arrival = float(found.turned(view.turns))
+    if not float(away) - TURN * (1 if view.returns else 2) - 1e-9 < arrival < float(away):
         told.append("the impact is counted in another turn")
     if view.returns and not sticks(view.eta, view.nu, found.phase):
         told.append("the flight does not end in the sticking arc")

@@ -78,7 +78,7 @@ def sampled(box, rng, count=6):
     """Some corners of a box and random points, as Arb numbers."""
     yield from ([exact(x) for x in corner] for corner in list(product(*box))[:8])
     for _ in range(count):
-        yield [exact(a + (b - a) * Fraction(rng.randint(0, 64), 64)) for a, b in box]
+        yield [exact(a + (b - a) * Fraction(rng.randint(0, 65536), 65536)) for a, b in box]
 
 
 def _told(point):
@@ -88,9 +88,13 @@ def _told(point):
 # -- zeros -----------------------------------------------------------------------------------------
 
 
-def newton(function, start):
-    """A zero near a start, or None; function(point) gives values and the matrix, in floats."""
+def newton(function, start, box=()):
+    """A zero near a start, or None; function(point) gives values and the matrix, in floats.
+
+    box: what is not left by more than its width.
+    """
     point = np.array([float(x) for x in start])
+    far = [(float(2 * a - b), float(2 * b - a)) for a, b in box] or [(-1e9, 1e9)] * len(point)
     for _ in range(30):
         found, matrix = function(point)
         try:
@@ -98,7 +102,7 @@ def newton(function, start):
         except np.linalg.LinAlgError:
             return None
         point = point - step
-        if not np.all(np.isfinite(point)) or np.max(np.abs(point)) > 1e9:
+        if not all(a <= x <= b for x, (a, b) in zip(point, far, strict=True)):
             return None
         if np.max(np.abs(step)) < 1e-13:
             return point
@@ -125,11 +129,11 @@ def image(view, rng):
 
 
 def zeros_in(function, box, rng):
-    """The zeros that Newton's method finds clearly inside a box; function: as for `newton`."""
+    """The zeros that Newton's method finds inside a box; function: as for `newton`."""
     found = []
     with flint.ctx.workprec(BITS):
-        for start in list(sampled(box, rng, 5)):
-            zero = newton(function, start)
+        for start in rng.sample(list(sampled(box, rng, 5)), 4):
+            zero = newton(function, start, box)
             if zero is None:
                 continue
             inside = all(
@@ -147,19 +151,22 @@ def unique_zero(view, rng):
 
 def periodic_orbits(view, rng):
     """The orbits that Newton's method finds from many places are as many, by least period."""
-    formula, found, counts = view.function, [], {}
+    formula, found, counts, asked = view.function, [], {}, dict(view.counts)
     near = [(max(low, Fraction(-2)), min(high, Fraction(2))) for low, high in view.box]
     with flint.ctx.workprec(BITS):
         for period in (d for d in range(1, view.period + 1) if view.period % d == 0):
-            shorter = len(found)
-            for start in (*sampled(view.box, rng, 6), *sampled(near, rng, 12 * period)):
+            shorter, few = len(found), 12 * period
+            starts = (*sampled(view.box, rng, 6), *sampled(near, rng, 40 * few))
+            for tries, start in enumerate(starts):
+                if tries > few and len(found) - shorter == asked.get(period, 0):
+                    break  # the last orbits take many more places than the others
                 point = newton(_closing(formula, period), start)
                 orbit = [] if point is None else _orbit(formula, point, period)
                 if orbit and _inside(orbit, view.box) and not any(_meets(orbit, x) for x in found):
                     found.append(orbit)
             if len(found) > shorter:
                 counts[period] = len(found) - shorter
-    return [] if counts == dict(view.counts) else [f"orbits are found: {counts}"]
+    return [] if counts == asked else [f"orbits are found: {counts}"]
 
 
 def periodic_orbit(view, rng):

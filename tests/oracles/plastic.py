@@ -167,29 +167,28 @@ def _between(view, ends):
 
 
 def branch(view, rng):
-    """On each piece gap > 0 up to `begin`, and then one transversal zero before the piece's end."""
+    """On each piece gap > 0 up to its window, and then one zero in it."""
     told = []
     if any(b <= a for a, b in zip(view.cuts, view.cuts[1:], strict=False)):
         return ["the cuts do not increase"]
-    if len(view.ends) != len(view.cuts) - 1:
+    if len(view.windows) != len(view.cuts) - 1:
         return ["the lengths do not fit"]
-    for k in {0, len(view.ends) - 1, rng.randrange(len(view.ends))}:
+    for k in {0, len(view.windows) - 1, rng.randrange(len(view.windows))}:
+        end = view.windows[k][1]
         for phase in points((view.cuts[k], view.cuts[k + 1]), rng, 1):
-            found = _impact(view, phase, float(view.ends[k]) + 1)
+            found = _impact(view, phase, float(end) + 1)
             if isinstance(found, str):
                 told.append(f"the launch at {float(phase):.9g}: {found}")
             elif found is not None:
-                if not inside(found.time, (view.begin, view.ends[k])):
+                if not inside(found.time, view.windows[k]):
                     told.append(f"the impact after {float(phase):.9g} is at {found.time.str(9)}")
                 around = (float(found.lifted) - TURN / 4) / TURN - view.turn
                 if abs(around) > 0.7:
                     told.append(f"the impact after {float(phase):.9g} is not in turn {view.turn}")
-                fall = [
-                    float(found.gap.at(ball(between((view.begin, view.ends[k]), s)))[1])
-                    for s in (Fraction(1, 9), Fraction(1, 2), Fraction(8, 9))
-                ]
-                if max(fall) > 1e-12:
-                    told.append(f"the gap does not fall after {float(phase):.9g}")
+                rest = ball(end) - found.time
+                below = [found.gap.at(found.time + rest * s / 8)[0] for s in (1, 4, 8)]
+                if max(map(float, below)) > 1e-12:
+                    told.append(f"the gap does not stay below 0 after {float(phase):.9g}")
     return told
 
 
@@ -199,7 +198,7 @@ def entropy_bound(view, rng):
     f is monotone between the points examined: how often the arc between their images meets each
     of the branches bounds the number of orbits that take different branches.
     """
-    told = []
+    told = _full_shift(view, rng) if view.cells else []
     logarithm = ball(view.growth).log()
     if not inside(logarithm, view.entropy):
         told.append(f"log(growth) is {logarithm.str(15)}")
@@ -210,7 +209,7 @@ def entropy_bound(view, rng):
     matrix = np.zeros((size, size))
     for i, one in enumerate(view.branches):
         cuts = (*one.cuts[:: max(1, len(one.cuts) // 3)], one.cuts[-1])
-        images = [lifted(view, phase, float(max(one.ends)) + 1) for phase in cuts]
+        images = [lifted(view, phase, float(max(one.windows)[1]) + 1) for phase in cuts]
         if None in images:
             return told
         low, high = min(images) - 1e-6, max(images) + 1e-6
@@ -220,6 +219,24 @@ def entropy_bound(view, rng):
     radius = max(abs(np.linalg.eigvals(matrix)), default=0.0)
     if float(view.growth) > radius * (1 + 1e-9):
         told.append(f"growth above {radius:.6g}, all that the branches allow")
+    return told
+
+
+def _full_shift(view, rng):
+    """What is wrong with cells on which f does not jump, each mapped over the hull of all."""
+    told, cells = [], view.cells
+    if len(cells) != view.growth or any(b[0] <= a[1] for a, b in pairwise(cells)):
+        told.append("the cells are out of order or overlap, or are not as many as is said")
+    for cell in cells:
+        if maps_over(view, cell, (cells[0][0], cells[-1][1])) in (False, None):
+            told.append(f"f does not map {cell} over all cells")
+        found = [_impact(view, phase) for phase in points(cell, rng, 5)]
+        slopes = [each.slope for each in found if isinstance(each, Impact)]
+        if len(slopes) < len(found):
+            told.append(f"launches from {cell} without a transversal impact")
+        steep = [float(slope) for slope in slopes] or [0.0]
+        bounds = min(steep) - 1 - abs(min(steep)) / 2, max(steep) + 1 + abs(max(steep)) / 2
+        told += smooth(view, cell, bounds, rng, 5)
     return told
 
 

@@ -6,6 +6,7 @@ The only part of these tests, beside the names in `adapter`, that touches the pr
 import importlib
 import json
 import pkgutil
+import re
 from dataclasses import replace
 from fractions import Fraction
 
@@ -13,14 +14,26 @@ from tests.once import REPORTS, once, report
 
 
 def _parts(document):
-    """A document without texts: parameters, steps, and the steps that each claim rests on."""
-    proofs = {claim["id"]: claim["proof"] for claim in document["claims"]}
-    return {"parameters": document["parameters"], "steps": document["steps"], "proofs": proofs}
+    """A document without texts: its parts, and the steps that each claim rests on."""
+    claims = (each for each in document["claims"] if isinstance(each, dict))
+    kept = {name: document[name] for name in ("parameters", "functions", "steps")}
+    return {**kept, "proofs": {claim["id"]: claim["proof"] for claim in claims}}
 
 
 def committed(name):
     """The parts of a committed certificate."""
     return _parts(json.loads((REPORTS / f"{name}.json").read_text()))
+
+
+def others():
+    """By name the parts of files that decide no claims: lemma examples, systems, atlases."""
+    from tests.proofs.trusted.kernel.lemma_examples import EXAMPLES, text
+
+    yield from ((f"lemma {name}", _parts(json.loads(text(name)))) for name in EXAMPLES)
+    for path in sorted([*REPORTS.glob("systems/*/*.json"), *REPORTS.glob("atlas/*/cell-*.json")]):
+        if re.search("orbits-2-[^1]", path.name):
+            continue  # like the first of them, and long
+        yield str(path.relative_to(REPORTS)), _parts(json.loads(path.read_text()))
 
 
 def certificates():
@@ -44,12 +57,15 @@ def proved(group, eta, nu):
 def conclusions(made):
     """The parameters and the conclusions of all steps by name, as the checker derives them."""
     from proofs.trusted import verify
-    from proofs.trusted.certificate import Reader, parameters_from_json
+    from proofs.trusted.certificate import Reader, subject_from_json
     from proofs.trusted.kernel.context import Context
+    from proofs.trusted.kernel.maps import read_map
 
-    context = Context(parameters_from_json(Reader(made["parameters"])))
+    context = Context(subject_from_json(Reader(made["parameters"])))
+    for name, each in made["functions"].items():
+        context.functions[name] = read_map(name, Reader(each), context.functions)
     verify.derive(context, Reader(made["steps"]))
-    return context.of, context.known
+    return context.parameters, context.known
 
 
 @once

@@ -150,6 +150,11 @@ def _much_growth(record):
     record.entropy = middle - F(1, 10**9), middle + F(1, 10**9)
 
 
+def _cells(change):
+    """Change the cells of a full shift, where there are some."""
+    return put("cells", lambda old: old and change(old))
+
+
 def _derivative(record):
     (p, q), rows = record.derivative
     record.derivative = (off(p), q), rows
@@ -211,8 +216,19 @@ FALSE = {
     "Excess": [*LINEAR, offs("root"), put("level", 0), put("interval", (F(0), F(99)))],
     "ShortGap": [*LINEAR, put("ratios", (F(1, 4), F(1, 4)))],
     "Uncovered": LINEAR,
-    "Branch": [put("begin", lambda old: old + 60), put("turn", lambda old: old + 2)],
-    "EntropyBound": [offs("entropy"), _much_growth, _swap("branches")],
+    "Branch": [
+        put("windows", lambda old: tuple((low + 60, high + 60) for low, high in old)),
+        put("windows", lambda old: tuple((low, (low + high) / 2) for low, high in old)),
+        put("turn", lambda old: old + 2),
+    ],
+    "EntropyBound": [
+        offs("entropy"),
+        _much_growth,
+        _swap("branches"),
+        _cells(lambda old: tuple((low + F(1, 10), high + F(1, 10)) for low, high in old)),
+        _cells(lambda old: (old[0], (old[1][0], sum(old[1]) / 2))),
+        _cells(lambda old: old[::-1]),
+    ],
     "Grazing": [
         *map(offs, ("phases", "time", "root")),
         put("turn", lambda old: old + 2),
@@ -407,12 +423,6 @@ FALSE = {
     ],
     "AllStick": [_of("arc", offs("arrival")), _of("arc", put("nu", F(1)))],
     "AtRest": [put("nu", F(1)), put("nu", F("-0.2"))],
-    "CoveringShift": [
-        put("cells", lambda old: tuple((low + F(1, 10), high + F(1, 10)) for low, high in old)),
-        put("cells", lambda old: (old[0], (old[1][0], sum(old[1]) / 2))),
-        put("cells", lambda old: old[::-1]),
-        put("eta", F("0.2")),
-    ],
     "Leaves": [put("nu", F("0.01"))],
     "NeverSticks": [put("nu", F(1)), put("eta", F("0.01"))],
     "OnlyTouches": [put("nu", F(1)), put("eta", F("0.9"))],

@@ -5,6 +5,7 @@ import math
 import os
 import subprocess
 import sys
+import time
 from fractions import Fraction
 from pathlib import Path
 
@@ -269,10 +270,36 @@ def test_the_machine_form(capsys):
         check(json.dumps(certificate))
 
 
+def test_the_time_is_over(capsys):
+    """A question that is begun is stopped: the ball's horseshoe takes seconds."""
+    arguments = ["--example", "bouncing-ball", "--ask", "horseshoe", "--seconds", "0.7"]
+    began = time.monotonic()
+    assert main(arguments) == 1
+    assert time.monotonic() - began < 1.7
+    said = capsys.readouterr().out
+    assert said.count("stopped after 0.7 seconds, as asked") == 2 and "points at random" not in said
+
+
+def test_effort_is_how_much_is_looked_at():
+    few, many = System.example("bouncing-ball"), System.example("bouncing-ball")
+    few.effort, many.effort = 1, 3
+    assert 0 < len(few.orbits(2)) < len(many.orbits(2))
+
+
+def test_many_theorems_are_counted():
+    theorem = Map("x^3 - 3*x", variables=["x"]).orbits(3, {"x": ("-2", "2")})
+    assert theorem.text(3).endswith(
+        f"- and {len(theorem) - 3} more of this kind, in the certificate"
+    )
+    assert str(theorem).count("- exactly one") == len(theorem) > 3
+
+
 @pytest.mark.parametrize(
     "arguments",
     [
         [],
+        ["--map", "x", "--effort", "0"],
+        ["--map", "x", "--seconds", "soon"],
         ["nowhere.toml"],
         ["--example", "none"],
         ["--map", "2x"],

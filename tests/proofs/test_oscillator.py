@@ -55,7 +55,7 @@ def test_what_is_printed_encloses_what_is_proved():
 def test_answers_show_themselves():
     found = RESTITUTING.image("1.12", "-0.2", digits=8)
     time, velocity = reference.rebound(
-        mpf("0.2121"), mpf("-0.2"), mpf("0.01"), mpf("1.12"), mpf("-0.2"), 0.01
+        mpf("0.2121"), mpf("-0.2"), mpf("0.01"), mpf("1.12"), mpf("-0.2")
     )
     assert abs(float(found["flight"].lower) - float(time)) < 1e-7
     assert abs(float(found["velocity"].lower) - float(velocity)) < 1e-7

@@ -16,11 +16,11 @@ from intervals.elementary.binary64.trigonometric import LIMIT, sincos
 __all__ = ["CHUNK", "ERRORS", "LIMIT", "atan2", "hypot", "monotone", "power", "sincos", "tan"]
 
 ERRORS = {name: ulps(function.k) for name, function in FUNCTIONS.items()} | {
-    "sin": 3.0,
-    "cos": 3.0,
-    "tan": ulps(2.01),
+    "sin": ulps(0.04),
+    "cos": ulps(0.04),
+    "tan": ulps(0.07),
     "atan2": ulps(0.07),
     "hypot": ulps(0.01),
-    "power": ulps(0.75),
+    "power": ulps(0.18),
 }
 """How far a bound at a point is from the true value at most, in ulps, in the proved range."""

@@ -21,12 +21,10 @@ s >= 0; and the other angles change as much absolutely, and are no smaller.
 """
 
 from fractions import Fraction
+from typing import Any
 
-import numpy as np
-
-from intervals.elementary.binary64.pair import Pair, fast_two_sum, split, two_product, two_sum
-from intervals.elementary.binary64.polynomial import horner, polynomial
-from intervals.rounding import Rows
+from intervals.elementary.binary64.pair import Pair, fast_two_sum, two_product, two_sum
+from intervals.elementary.binary64.primitives import Table, horner, nearest_integers, split
 
 _ARCTANGENTS = (  # of j/16 in two parts, j = 2, ..., 16
     ("0x1.fd5ba9aac2f6ep-4", "-0x1.cd37686760c17p-59"),
@@ -45,10 +43,10 @@ _ARCTANGENTS = (  # of j/16 in two parts, j = 2, ..., 16
     ("0x1.819d0b7158a4dp-1", "-0x1.bf76229d3b917p-56"),
     ("0x1.921fb54442d18p-1", "0x1.1a62633145c07p-55"),
 )
-_SERIES = polynomial((-1) ** (k // 2 + 1) / k for k in range(15, 2, -2))
+_SERIES = tuple((-1) ** (k // 2 + 1) / k for k in range(15, 2, -2))
 
 
-def _bases() -> tuple[Rows, Rows]:
+def _bases() -> tuple[Table, Table]:
     """Return both parts of atan c, pi/2 - atan c, pi - atan c, pi/2 + atan c, 17 numbers c each."""
     arcs = [sum(map(Fraction, map(float.fromhex, pair))) for pair in _ARCTANGENTS]
     arcs, right = [Fraction(0), Fraction(0), *arcs], 2 * arcs[-1]
@@ -56,12 +54,12 @@ def _bases() -> tuple[Rows, Rows]:
     exact = [base + sign * arc for base, sign in angles for arc in arcs]
     high = [float(x) for x in exact]
     low = [float(x - Fraction(h)) for x, h in zip(exact, high, strict=True)]
-    return np.array(high), np.array(low)
+    return Table(high), Table(low)
 
 
 _HIGH, _LOW = _bases()
-_NODES = np.array([0.0, 0.0, *(j / 16 for j in range(2, 17))])
-_SIGNS = np.array([1.0, -1.0, -1.0, 1.0]).repeat(17)
+_NODES = Table([0.0, 0.0, *(j / 16 for j in range(2, 17))])
+_SIGNS = Table(sign for sign in (1.0, -1.0, -1.0, 1.0) for _ in range(17))
 
 
 def angle(y: Pair, x: Pair) -> Pair:
@@ -70,8 +68,8 @@ def angle(y: Pair, x: Pair) -> Pair:
     right = (-x).where(left, x)
     steep = y.hi > right.hi
     a, b = right.where(steep, y), y.where(steep, right)
-    node = np.rint(16.0 * (a.hi / b.hi)).astype(np.int64)
-    c = _NODES.take(node, mode="clip")
+    _, node = nearest_integers(16.0 * (a.hi / b.hi))
+    c = _NODES[node]
     t, rest = _rotated(a, b, c)
     z = t * t
     cubic = horner(z, _SERIES)
@@ -79,13 +77,13 @@ def angle(y: Pair, x: Pair) -> Pair:
     cubic *= t
     rest -= cubic
     node += 17 * (steep + 2 * left)
-    sign = _SIGNS.take(node, mode="clip")
-    high, low = two_sum(_HIGH.take(node, mode="clip"), sign * t)
-    low += _LOW.take(node, mode="clip") + sign * rest
+    sign = _SIGNS[node]
+    high, low = two_sum(_HIGH[node], sign * t)
+    low += _LOW[node] + sign * rest
     return Pair(*fast_two_sum(high, low), x.k + y.k + 0.06)
 
 
-def _rotated(a: Pair, b: Pair, c: Rows) -> tuple[Rows, Rows]:
+def _rotated(a: Pair, b: Pair, c: Any) -> tuple[Any, Any]:
     """Return (a - c b) / (b + c a) in two parts."""
     n, n_low = two_sum(a.hi, -(c * b.hi))
     n_low += a.lo - _low_of_product(c, b)
@@ -96,8 +94,7 @@ def _rotated(a: Pair, b: Pair, c: Rows) -> tuple[Rows, Rows]:
     return t, (((n - p) - e) + (n_low - t * m_low)) / m
 
 
-def _low_of_product(c: Rows, x: Pair) -> Rows:
+def _low_of_product(c: Any, x: Pair) -> Any:
     """Return c x - fl(c x.hi), for c of at most 26 bits: exact but for the rounding of x.lo."""
     head, tail = split(x.hi)
-    low: Rows = ((c * head - c * x.hi) + c * tail) + c * x.lo
-    return low
+    return ((c * head - c * x.hi) + c * tail) + c * x.lo

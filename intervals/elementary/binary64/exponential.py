@@ -1,129 +1,143 @@
 """exp, exp2, exp10 and expm1 of binary64 numbers, as pairs with a proved error.
 
-Theorem. For |s| <= 0.3467 and |t| <= 0.6 u, u = 2^-53, `_core` returns w with
-|exp(s + t) - 1 - s - w| <= 0.25 u if s >= 0, and 0.21 u if s < 0.
+Theorem. For |s| <= 0.00543 and |t| <= 2^-7 u, u = 2^-53, `_series` returns v, |v| < 2^-15.9, with
+|exp(s + t) - 1 - s - v| <= 2^-13.8 u, and 2^-14.4 u where |t| <= 2^-8 u.
 
-Proof. exp(s + t) = 1 + s + (z/2 + z s q + t (1 + s)) + rest, z = s^2, q = 1/3! + s/4! + ... +
-s^10/13!. Errors in units of u, for s >= 0 and, in brackets, for s < 0:
-0.061 from fl(s^2) in z/2 (0.061);
-0.035 from fl(fl(z s) q), 4.5 relative errors of at most 0.0077 (0.030, of at most 0.0064);
-0.005 from adding fl(t fl(1 + s)), since the sum is below 2^-6 (0.005);
-0.063 from adding z/2, since the sum is below 2^-3 (0.032: below 2^-4);
-0.040 from the tail, at most 1.03 |s|^14 / 14! (0.040);
-0.040 from the other products with t, at most 0.066 |t| (0.037).
-The sums are 0.244 and 0.205.
-Measured on a million points: exp 0.16, exp2 0.15, exp10 0.20, expm1 0.73 u.
+Proof. exp(s + t) = 1 + s + z/2 + z s q + t (1 + s) + rest, z = s^2, q = 1/3! + s/4! + ... + s^4/7!.
+Errors in units of u: 2^-17 from fl(s^2) in z/2; 2^-22 from fl(fl(z s) q); 2^-17 from each of two
+sums below 2^-15.9; 2^-22 from the tail, s^8 / 8!; 2^-15.4 from t s (2^-14.4 where |t| <= 2^-7 u).
 
-Reduction. x = n log 2 + r with n = round(x / log 2), |n| <= 1023. log 2 = L1 + L2 + d, L1 a
-multiple of 2^-42, |L2| < 2^-43, |d| < 2^-98. n L1 has 53 bits and is exact. a = x - n L1 is exact:
-if n != 0, then |x| > 1/3, so both are multiples of 2^-54, and |a| < 1/2. b = fl(n L2), below 2^-32,
-errs by 2^-86 (with a low part of x by 2^-85), and s + t = a - b up to 2^-84 (Dekker if |a| >= |b|;
-else both are below 2^-32). |s| <= log(2)/2 + 2^-40, |t| <= u/4. So r is known to 2^-30 u.
-exp2: x - n is exact; exp10: x - n log10 2 is reduced likewise, log10 2 in two parts, the first a
-multiple of 2^-43. The products with log 2 and log 10, of pairs, have |lo| <= 0.6 u and err by less
-than 2^-20 u.
+Powers. With n = 64 e + j, 0 <= j < 64, and 2^(j/64) = T + T', 2^(n/64) exp(s + t) is 2^e (T + T s +
+(T v + T')) up to T' (s + v), where T is a multiple of 2^-52, |T'| <= 2^-53. Errors in units of u,
+beside a value above 0.99: 2^-7 from fl(T s) < 2^-6; 2 * 2^-13.8; 2^-7.5 from T' s; 2^-14.9 from
+each of three sums below 2^-14.8: below 0.0136, and T + fl(T s) is exact in two parts. Measured on a
+million points: exp, exp2, exp10 0.009 u, expm1 0.008 u.
+
+Reduction. x = n c + r with c = log(2) / 64 and n = round(x / c), |n| < 2^17. c = C1 + C2 + d, C1 a
+multiple of 2^-42, |C2| < 2^-43, |d| < 2^-96. n C1 has 53 bits and is exact. a = x - n C1 is exact:
+if n != 0, then |x| > 2^-8, so both are multiples of 2^-60, and |a| < 2^-7. b = fl(n C2), below
+2^-26, errs by 2^-80 (with a low part of x by 2^-79), and s + t = a - b up to 2^-77 (Dekker if
+|a| >= |b|; else s is below 2^-25). |s| <= c / 2 + 2^-40, |t| <= 2^-8 u. So r is known to 2^-23 u.
+exp2: x - n/64 is exact; exp10: x - n log10(2) / 64 is reduced likewise, log10(2) / 64 in two parts,
+the first a multiple of 2^-43. The products with log 2 and log 10, of pairs, have |t| <= 2^-7 u and
+err by less than 2^-20 u |s|.
 """
 
-from math import factorial
-
-import numpy as np
-from numpy.typing import NDArray
+from functools import lru_cache
+from itertools import accumulate
+from math import factorial, isqrt
+from typing import Any
 
 from intervals.elementary.binary64.pair import Pair, fast_two_sum, two_sum
-from intervals.elementary.binary64.polynomial import horner, nearest_integers, polynomial
-from intervals.rounding import Rows, constant
+from intervals.elementary.binary64.primitives import (
+    BITS,
+    Table,
+    horner,
+    nearest_integers,
+    power_of_two,
+    split,
+    tables,
+)
 
-
-def _number(text: str) -> Rows:
-    return constant(float.fromhex(text))
-
-
-_LOG2_E, _LOG2_10 = _number("0x1.71547652b82fep+0"), _number("0x1.a934f0979a371p+1")
-LOG_2 = _number("0x1.62e42fefa3800p-1"), _number("0x1.ef35793c76730p-45")
-LOG10_2 = _number("0x1.34413509f7800p-2"), _number("0x1.fef311f12b358p-46")
+_number = float.fromhex
+_STEPS = 64
+_STEPS_E, _STEPS_10 = _number("0x1.71547652b82fep+6"), _number("0x1.a934f0979a371p+7")
 LN_2 = Pair(_number("0x1.62e42fefa39efp-1"), _number("0x1.abc9e3b39803fp-56"))
 LN_10 = Pair(_number("0x1.26bb1bbb55516p+1"), _number("-0x1.f48ad494ea3e9p-53"))
-_ZERO, _HALF, _ONE = map(constant, (0.0, 0.5, 1.0))
-_BIAS, _TO_EXPONENT = np.array(1023), np.array(52)
-
-Integers = NDArray[np.int64]
-
-_TAYLOR = polynomial(1.0 / factorial(k) for k in range(13, 2, -1))
+STEP_E = _number("0x1.62e42fefa0000p-7"), _number("0x1.cf79abc9e3b3ap-46")
+STEP_10 = _number("0x1.3441350a00000p-8"), _number("-0x1.0c0219dc1da99p-45")
+_TAYLOR = tuple(1.0 / factorial(k) for k in range(7, 2, -1))
 
 
 def exp(x: Pair) -> Pair:
-    """Return exp x for -660 <= x <= 709.
+    """Return exp x for -660 <= x <= 709; k = 2^-6 + 710 k_x.
 
-    k: 1 + s is exact in two parts, and adding w rounds below 2^-3, for s < 0 below 2^-4:
-    0.25 + 0.063 beside exp r >= 1, or 0.21 + 0.032 beside exp r >= 0.707. In both cases below 0.36.
-    An error of x, at most 710 k_x u, is a relative one of exp x.
+    The error of r is beside a value of at least 0.99, and an error of x, at most 710 k_x u, is a
+    relative one of exp x.
     """
-    y = _exponential(*_halves(x.hi, x.lo, _LOG2_E, LOG_2))
+    y = _exponential(*_halves(x.hi, x.lo, _STEPS_E, STEP_E))
     return Pair(y.hi, y.lo, y.k + 710.0 * x.k)
 
 
 def exp2(x: Pair) -> Pair:
-    """Return 2^x for |x| <= 950 and x.lo = 0: as exp, since x - n is exact."""
-    rest, n = nearest_integers(x.hi.copy())
-    r = Pair(x.hi - rest) * LN_2
+    """Return 2^x for |x| <= 950 and x.lo = 0: as exp, since x - n/64 is exact."""
+    rest, n = nearest_integers(x.hi * _STEPS)
+    r = Pair(x.hi - rest * (1 / _STEPS)) * LN_2
     return _exponential(r.hi, r.lo, n)
 
 
 def exp10(x: Pair) -> Pair:
     """Return 10^x for -285 <= x <= 308 and x.lo = 0: as exp."""
-    high, low, n = _halves(x.hi, _ZERO, _LOG2_10, LOG10_2)
+    high, low, n = _halves(x.hi, 0.0, _STEPS_10, STEP_10)
     r = Pair(high, low) * LN_10
     return _exponential(r.hi, r.lo, n)
 
 
 def expm1(x: Pair) -> Pair:
-    """Return exp x - 1 for -660 <= x <= 709, x.lo = 0, and 2^-400 <= |x| or x = 0.
+    """Return exp x - 1 for -660 <= x <= 709, x.lo = 0, and 2^-400 <= |x| or x = 0; k = 1/16.
 
-    2^n - 1 is exact if |n| <= 53, and its sum with 2^n s is exact in two parts. k: if n = 0, then
-    t = 0, and w has relative to s, in units of u, 0.174 from z/2, 0.1 from z s q, 0.2 from their
-    sum, 0.115 from the tail; for s < 0 with 0.155 in place of 0.2, and |s| <= 1.184 |exp s - 1|:
-    below 0.65. If n = 1, the errors 2 * 0.21 and 0.063 = 2^-4 from adding w are beside
-    exp x - 1 >= 0.414: below 1.2. All other n leave less: n = 2 at most (4 * 0.25 + 0.125) / 1.82,
-    2 < n <= 53 at most 0.32 / (0.707 - 1/8), n < 0 at most 0.2 / 0.29. Beyond |n| = 53 rounding
-    2^n - 1 adds at most 0.5: with the others 0.75 beside 0.707, or 0.82 beside 1.
+    Here T is a multiple of 2^-25, |T'| <= 2^-26, known to 2^-79, and s = a + b, of 26 bits each, so
+    that T a, at most 0.0109, is exact. exp x - 1 = (2^e T - 1) + 2^e T a + 2^e w, where
+    w = (T + T') v + T b + T' s + T' is below 2^-14.8.
+    If n = 0, then T = 1, T' = t = 0: the error is at most 5 roundings of parts below 0.003 |s| and
+    the tail, at most 2^-67 |s|. Else 2^e T - 1 is exact in two parts, the first of which is larger
+    than 2^e T a. In units of 2^e u, 2^-13.4 from v, 2^-22 from r, and 7 roundings of numbers below
+    2^-14.8, at most 2^-12.9: together 2^-12.1, beside |exp x - 1| >= 0.0053 * 2^e: 0.043.
     """
-    s, t, n = _halves(x.hi, _ZERO, _LOG2_E, LOG_2)
-    power = power_of_two(n)
-    high, low = two_sum(power - _ONE, power * s)
-    high, low = fast_two_sum(high, low + power * _core(s, t))
-    return Pair(high, low, 1.2)
+    s, t, n = _halves(x.hi, 0.0, _STEPS_E, STEP_E)
+    j, power, w = n & (_STEPS - 1), power_of_two(n >> 6), _series(s, t)
+    heads, rests = _powers(25)
+    h, h_low = heads[j], rests[j]
+    head, tail = split(s)
+    w *= h + h_low
+    w += h * tail
+    w += h_low * s
+    w += h_low
+    w *= power
+    h *= power
+    high, low = two_sum(h, -1.0)
+    w += low
+    high, low = fast_two_sum(high, h * head)
+    low += w
+    return Pair(*fast_two_sum(high, low), 2.0**-4)
 
 
-def _exponential(s: Rows, t: Rows, n: Integers) -> Pair:
-    """Return 2^n exp(s + t)."""
-    high, low = fast_two_sum(_ONE, s)
-    low += _core(s, t)
-    return Pair(*fast_two_sum(high, low), 0.36).scaled(power_of_two(n))
+def _exponential(s: Any, t: Any, n: Any) -> Pair:
+    """Return 2^(n/64) exp(s + t)."""
+    heads, rests = _powers(52)
+    j = n & (_STEPS - 1)
+    h = heads[j]
+    high, low = fast_two_sum(h, h * s)
+    w = _series(s, t)
+    w *= h
+    w += rests[j]
+    low += w
+    return Pair(high, low, 2.0**-6).scaled(power_of_two(n >> 6))
 
 
-def _halves(
-    x: Rows, low: Rows, inverse: Rows, parts: tuple[Rows, Rows]
-) -> tuple[Rows, Rows, Integers]:
+def _halves(x: Any, low: Any, inverse: float, parts: tuple[float, float]) -> tuple[Any, Any, Any]:
     """Return s, t, n with x + low = n c + s + t, c the sum of `parts`, 1 / c about `inverse`."""
     n, integers = nearest_integers(x * inverse)
     a = x - n * parts[0]
-    n *= parts[1]
-    n = low - n
-    return *fast_two_sum(a, n), integers
+    return *fast_two_sum(a, low - n * parts[1]), integers
 
 
-def _core(s: Rows, t: Rows) -> Rows:
+def _series(s: Any, t: Any) -> Any:
     """Return exp(s + t) - 1 - s, see the theorem."""
     z = s * s
-    w = horner(s, _TAYLOR)
-    w *= z * s
-    w += t * (_ONE + s)
-    z *= _HALF
-    w += z
-    return w
+    v = horner(s, _TAYLOR)
+    v *= z * s
+    v += t
+    z *= 0.5
+    v += z
+    return v
 
 
-def power_of_two(n: Integers) -> Rows:
-    """Return 2^n for -1022 <= n <= 1023, from its bits."""
-    bits: Integers = (n + _BIAS) << _TO_EXPONENT
-    return bits.view(np.float64)
+@lru_cache(maxsize=2)
+def _powers(places: int) -> tuple[Table, Table]:
+    """Return 2^(j/64), j < 64, in two parts; as integers, of BITS places, they err by 2^8 units."""
+    root = 2 << BITS
+    for _ in range(6):
+        root = isqrt(root << BITS)
+    powers = accumulate(range(1, _STEPS), lambda x, _: x * root >> BITS, initial=1 << BITS)
+    return tables(powers, places)

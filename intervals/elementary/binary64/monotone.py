@@ -2,7 +2,8 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
+from typing import Any
 
 import numpy as np
 
@@ -14,12 +15,11 @@ from intervals.elementary.binary64.blocks import (
     moderate,
 )
 from intervals.elementary.binary64.fallback import Ends
-from intervals.elementary.binary64.pair import Pair
-from intervals.rounding import MAX, Rows, constant
+from intervals.elementary.binary64.pair import Bounds, Pair, bounds
+from intervals.rounding import MAX, Rows, constant, joined
 from intervals.rows import is_thin
 
 _LARGE = 2.0**400
-_ZERO = constant(0.0)
 _HALF_PI, _PI = 1.5707963267948968, 3.1415926535897936  # the next numbers above
 
 
@@ -31,7 +31,7 @@ class Monotone:
     least, greatest: bounds of its values.
     """
 
-    point: Callable[[Rows], Pair]
+    point: Callable[[Any], Pair]
     k: float
     low: float
     high: float
@@ -40,17 +40,29 @@ class Monotone:
     small: float = 2.0**-400
     decreasing: bool = False
 
-    def enclose(self, rows: Rows) -> tuple[Rows, Mask]:
+    def enclose(self, rounded: Bounds, rows: Rows) -> tuple[Rows, Mask]:
         """Return rows of f(X), and where they are proved."""
         if is_thin(rows):
             x = rows[1]
-            bounds = self.point(x).rows()
+            bounds = joined(*rounded(self.point(x)))
         else:
             x = lower_upper(rows)
-            bounds = self.point(x).rows(*(1, 0) if self.decreasing else (0, 1))
+            below, above = rounded(self.point(x))
+            bounds = joined(*(below[1], above[0]) if self.decreasing else (below[0], above[1]))
         for row, most in self._cuts:
             np.minimum(bounds[row], most, out=bounds[row])
         return bounds, self._proved(x)
+
+    def few(self, rounded: Bounds, a: float, b: float) -> tuple[float, float] | None:
+        """Return the row of f over [-a, b], None where it is not proved."""
+        left, right = (b, -a) if self.decreasing else (-a, b)
+        for x in (left, right):
+            if not (self.low <= x <= self.high and (x == 0.0 or abs(x) >= self.small)):
+                return None
+        below, above = rounded(self.point(left))
+        if left != right:
+            _, above = rounded(self.point(right))
+        return min(below, -self.least), min(above, self.greatest)
 
     @cached_property
     def _cuts(self) -> list[tuple[int, Rows]]:
@@ -69,33 +81,33 @@ class Monotone:
         return within & moderate(x, small, large) if self.small else within
 
 
-def _of_pair(function: Callable[[Pair], Pair]) -> Callable[[Rows], Pair]:
-    return lambda x: function(Pair(x, _ZERO))
+def _of_pair(function: Callable[[Pair], Pair]) -> Callable[[Any], Pair]:
+    return lambda x: function(Pair(x))
 
 
 FUNCTIONS = {
-    "exp": Monotone(_of_pair(exponential.exp), 0.36, -660.0, 709.0, least=0.0, small=0.0),
-    "exp2": Monotone(_of_pair(exponential.exp2), 0.36, -950.0, 950.0, least=0.0, small=0.0),
-    "exp10": Monotone(_of_pair(exponential.exp10), 0.36, -285.0, 308.0, least=0.0, small=0.0),
-    "expm1": Monotone(_of_pair(exponential.expm1), 1.2, -660.0, 709.0, least=-1.0),
-    "log": Monotone(_of_pair(logarithm.log), 0.71, 2.0**-1022, MAX),
-    "log2": Monotone(_of_pair(logarithm.log2), 0.71, 2.0**-1022, MAX),
-    "log10": Monotone(_of_pair(logarithm.log10), 0.71, 2.0**-1022, MAX),
-    "log1p": Monotone(_of_pair(logarithm.log1p), 0.96, -1.0, _LARGE),
+    "exp": Monotone(_of_pair(exponential.exp), 0.016, -660.0, 709.0, least=0.0, small=0.0),
+    "exp2": Monotone(_of_pair(exponential.exp2), 0.016, -950.0, 950.0, least=0.0, small=0.0),
+    "exp10": Monotone(_of_pair(exponential.exp10), 0.016, -285.0, 308.0, least=0.0, small=0.0),
+    "expm1": Monotone(_of_pair(exponential.expm1), 0.07, -660.0, 709.0, least=-1.0),
+    "log": Monotone(_of_pair(logarithm.log), 0.04, 2.0**-1022, MAX),
+    "log2": Monotone(_of_pair(logarithm.log2), 0.04, 2.0**-1022, MAX),
+    "log10": Monotone(_of_pair(logarithm.log10), 0.04, 2.0**-1022, MAX),
+    "log1p": Monotone(_of_pair(logarithm.log1p), 0.04, -1.0, _LARGE),
     "cbrt": Monotone(compositions.cbrt, 0.01, -_LARGE, _LARGE),
     "asin": Monotone(compositions.asin, 0.07, -1.0, 1.0, -_HALF_PI, _HALF_PI),
     "acos": Monotone(compositions.acos, 0.07, -1.0, 1.0, 0.0, _PI, decreasing=True),
     "atan": Monotone(compositions.atan, 0.07, -_LARGE, _LARGE, -_HALF_PI, _HALF_PI),
-    "sinh": Monotone(compositions.sinh, 2.41, -700.0, 700.0),
-    "cosh": Monotone(compositions.cosh, 0.37, 0.0, 600.0, least=1.0, small=0.0),
-    "tanh": Monotone(compositions.tanh, 2.41, -MAX, MAX, -1.0, 1.0),
-    "asinh": Monotone(compositions.asinh, 0.96, -_LARGE, _LARGE),
-    "acosh": Monotone(compositions.acosh, 0.96, 1.0, _LARGE, least=0.0),
-    "atanh": Monotone(compositions.atanh, 0.96, -1.0, 1.0),
+    "sinh": Monotone(compositions.sinh, 0.13, -690.0, 690.0),
+    "cosh": Monotone(compositions.cosh, 0.016, 0.0, 600.0, least=1.0, small=0.0),
+    "tanh": Monotone(compositions.tanh, 0.13, -MAX, MAX, -1.0, 1.0),
+    "asinh": Monotone(compositions.asinh, 0.04, -_LARGE, _LARGE),
+    "acosh": Monotone(compositions.acosh, 0.04, 1.0, _LARGE, least=0.0),
+    "atanh": Monotone(compositions.atanh, 0.04, -1.0, 1.0),
 }
 
 
-def monotone(name: str, rows: Rows) -> Rows:
+def monotone(name: str, rows: Rows, rounded: Bounds = bounds) -> Rows:
     """Return rows of f(X) for the intervals X of `rows`, (-lower, upper), in the domain of f.
 
     f, one of `FUNCTIONS`, is increasing, except acos; cosh takes X within x >= 0. OverflowError if
@@ -107,4 +119,5 @@ def monotone(name: str, rows: Rows) -> Rows:
     def exactly(x: Ends) -> Ends:
         return fallback.monotone(name, *(x[::-1] if function.decreasing else x))
 
-    return in_blocks(function.enclose, exactly, rows)
+    enclose, few = partial(function.enclose, rounded), partial(function.few, rounded)
+    return in_blocks(enclose, exactly, rows, few=few)

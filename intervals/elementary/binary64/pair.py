@@ -13,29 +13,24 @@ Convention. |lo| <= c u |hi|, where c = 1 after `fast_two_sum` and each rule mak
 c_1 + c_2 + 3 of the operands' c_1, c_2: below 2^8 in formulas of the size found here. So lo lo'
 is below 2^16 u^2 |hi hi'|, a rounding of a lo below 2^9 u^2 |hi|, and a few of either below
 EPSILON u |hi|, EPSILON = 2^-20, for which each rule has room. The same EPSILON covers the products
-k k' u, since k < 100.
+k k' u, since k < 100. What is only to be rounded need not be `normal`: |lo| <= 2^-9 |hi| is enough.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
-from intervals.rounding import Rows, constant, joined
+from intervals.elementary.binary64.primitives import of, split
 
 EPSILON = 2.0**-20
-_TINY = constant(2.0**-1000)
-_HEAD = np.array(-(1 << 27))  # clears the last 27 bits of the mantissa
+_TINY = 2.0**-1000
+# For |y| >= 2^-960, y + u (1 + 2 u) |y| rounds to the number above y: Rump, Zimmermann, Boldo,
+# Melquiond 2009, Computing predecessor and successor in rounding to nearest.
+NEXT = 2.0**-53 * (1 + 2.0**-52)
 
 Parts = tuple[Any, Any]
-
-
-def split(x: Any) -> Parts:
-    """Return (h, l) with x = h + l exactly: h has 26 bits, l has 27 and is below 2^-25 |x|."""
-    head = (x.view(np.int64) & _HEAD).view(np.float64)
-    return head, x - head
 
 
 def two_sum(a: Any, b: Any) -> Parts:
@@ -52,20 +47,14 @@ def fast_two_sum(a: Any, b: Any) -> Parts:
 
 
 def two_product(a: Any, b: Any) -> Parts:
-    """Return p = fl(a b) and e with |a b - (p + e)| <= 2^-22 u |a b|.
-
-    Proof. With the parts of `split` each partial product but the last is exact, having at most 53
-    bits. ah bh differs from a b, and a b from p, by less than 2^-23 |a b|, so ah bh - p is exact
-    (Sterbenz). What is rounded is at most 2^-24 |a b| for ah bl + al bh, and for the rest at most
-    2^-50 |a b| three times: together less than 2^-23 u |a b|.
-    """
+    """Return p = fl(a b) and e = a b - p exactly (Dekker)."""
     return _product(a, split(a), b, split(b))
 
 
 def _product(a: Any, parts_of_a: Parts, b: Any, parts_of_b: Parts) -> Parts:
     (ah, al), (bh, bl) = parts_of_a, parts_of_b
     p = a * b
-    return p, ((ah * bh - p) + (ah * bl + al * bh)) + al * bl
+    return p, ((ah * bh - p) + ah * bl + al * bh) + al * bl
 
 
 @dataclass(slots=True)
@@ -78,6 +67,10 @@ class Pair:
 
     def __neg__(self) -> Pair:
         return Pair(-self.hi, -self.lo, self.k)
+
+    def normal(self) -> Pair:
+        """Return the same numbers with the nearest hi."""
+        return Pair(*fast_two_sum(self.hi, self.lo), self.k)
 
     def __getitem__(self, index: Any) -> Pair:
         return Pair(self.hi[index], self.lo[index], self.k)
@@ -105,7 +98,7 @@ class Pair:
         """Return the quotient; k = k_1 + k_2.
 
         With q = fl(hi / hi') and q hi' = p + e, the quotient is q + (hi - p - e + lo - q lo') /
-        (hi' + lo'). hi - p is exact (Sterbenz); e is known to 2^-22 u |hi|; the numerator is below
+        (hi' + lo'). hi - p is exact (Sterbenz); the numerator is below
         2^9 u |hi|, so that leaving lo' out of the divisor costs less than 2^17 u^2 |q|.
         """
         q = self.hi / other.hi
@@ -120,47 +113,61 @@ class Pair:
         0 <= d <= r^2 / (8 y^3) < 2^18 u^2 y; sqrt(1 + a) errs from 1 by at most |a| / 2 + a^2.
         sqrt 0 = 0, since there r = 0.
         """
-        y = np.sqrt(self.hi)
+        functions = of(self.hi)
+        y = functions.sqrt(self.hi)
         parts = split(y)
         p, e = _product(y, parts, y, parts)
         rest = ((self.hi - p) - e) + self.lo
-        return Pair(y, rest / np.maximum(2.0 * y, _TINY), 0.5 * self.k + EPSILON)
+        return Pair(y, rest / functions.maximum(2.0 * y, _TINY), 0.5 * self.k + EPSILON)
 
     def where(self, mask: Any, other: Pair) -> Pair:
         """Return these numbers where the mask holds, those of the other elsewhere."""
-        hi, lo = np.where(mask, self.hi, other.hi), np.where(mask, self.lo, other.lo)
+        where = of(self.hi).where
+        hi, lo = where(mask, self.hi, other.hi), where(mask, self.lo, other.lo)
         return Pair(hi, lo, max(self.k, other.k))
 
-    def with_sign_of(self, x: Rows) -> Pair:
+    def with_sign_of(self, x: Any) -> Pair:
         """Return numbers >= 0 with the signs of x."""
-        return Pair(np.copysign(self.hi, x), np.where(x < 0.0, -self.lo, self.lo), self.k)
+        functions = of(x)
+        lo = functions.where(x < 0.0, -self.lo, self.lo)
+        return Pair(functions.copysign(self.hi, x), lo, self.k)
 
-    def rows(self, lower: Any = ..., upper: Any = ...) -> Rows:
-        """Return rows (-lower, upper) of the numbers, or from one index to another."""
-        step = self._step()
-        below, above = (step - self.lo) - self.hi, (self.lo + step) + self.hi
-        return joined(below[lower], above[upper])
 
-    def upper(self) -> Rows:
-        """Return upper bounds."""
-        result: Rows = (self.lo + self._step()) + self.hi
-        return result
+Bounds = Callable[[Pair], Parts]
 
-    def _step(self) -> Rows:
-        """Return d so that fl(hi + fl(lo + d)) >= Y; this bound is near, too: see `ulps`.
 
-        d = fl((k + 1 + 2^-8) |hi| u). The last sum loses at most u (1 + (k + 2^9) u) |hi|, the
-        inner one and d itself below 2^-20 u |hi|, and |Y| <= (1 + 2^-30) |hi|.
-        """
-        step: Rows = np.abs(self.hi)
-        step *= (self.k + 1.0 + 2.0**-8) * 2.0**-53
-        return step
+def bounds(y: Pair) -> Parts:
+    """Return upper bounds of -Y and of Y, near ones: see `ulps`.
+
+    With d = fl((k + 1 + 2^-6) |hi| u), fl(hi + fl(lo + d)) >= Y if |lo| <= 2^-9 |hi|: the last sum
+    loses at most u (1 + 2^-8) |hi|, the inner one and d itself 2^-8.9 u |hi|, and k u |Y| is at
+    most k (1 + 2^-8) u |hi|, where k < 1; of normal pairs |lo| < 2^-40 |hi|, and k may be larger.
+    """
+    step = abs(y.hi) * ((y.k + 1.0 + 2.0**-6) * 2.0**-53)
+    return (step - y.lo) - y.hi, (y.lo + step) + y.hi
+
+
+def least_bounds(y: Pair) -> Parts:
+    """Return the least upper bounds of -Y and of Y that what is known of Y allows: see `ulps`.
+
+    With d = fl((k + 2^-6) |hi| u), hi + lo + d >= Y; and hi + fl(lo + d) is a number of binary64,
+    s, and a rest, of which the sign says whether s or the next number is the bound. |hi| is 0 or
+    above 2^-955.
+    """
+    step = abs(y.hi) * ((y.k + 2.0**-6) * 2.0**-53)
+    return _next(*fast_two_sum(-y.hi, step - y.lo)), _next(*fast_two_sum(y.hi, y.lo + step))
+
+
+def _next(s: Any, rest: Any) -> Any:
+    """Return s, and the number above it where there is a rest > 0; see NEXT."""
+    return s + abs(s) * NEXT * (rest > 0.0)
 
 
 def ulps(k: float) -> float:
-    """Return how many ulps of the bound, at most, separate the bound from Y: 2 k + 1.5 + 2^-7.
+    """Return how many ulps of the bound, at most, are between one of `bounds` and Y.
 
-    hi + lo errs by k u |Y|, d is (k + 1 + 2^-8) u |hi|, the last rounding half an ulp; and an ulp
-    is more than u times the number.
+    hi + lo errs by k u |Y|, d is (k + 1 + 2^-6) u |hi|, the last rounding half an ulp; and an ulp
+    is more than u times the number. Of `least_bounds` they are half an ulp less: d is u |hi| less,
+    and the last step at most an ulp.
     """
-    return 2.0 * k + 1.5 + 2.0**-7
+    return 2.0 * k + 1.5 + 2.0**-5

@@ -1,37 +1,40 @@
 """atan2 and hypot over arrays of boxes, in binary64."""
 
+from functools import partial
+
 import numpy as np
 
 from intervals.elementary.binary64 import fallback
 from intervals.elementary.binary64.arctangent import angle
 from intervals.elementary.binary64.blocks import Mask, in_blocks, moderate
 from intervals.elementary.binary64.fallback import PI_UP, Ends
-from intervals.elementary.binary64.pair import Pair
+from intervals.elementary.binary64.pair import Bounds, Pair, bounds
 from intervals.errors import DomainError
-from intervals.rounding import Rows
+from intervals.rounding import Rows, joined
 from intervals.rows import aligned, is_thin, magnitude
 
 
-def hypot(x: Rows, y: Rows) -> Rows:
+def hypot(x: Rows, y: Rows, rounded: Bounds = bounds) -> Rows:
     """Return rows of sqrt(x^2 + y^2), x in X, y in Y: increasing in |x| and in |y|."""
 
     def exactly(a: Ends, b: Ends) -> Ends:
         return fallback.at_corners("hypot", a, b)
 
-    return in_blocks(_hypot, exactly, *map(magnitude, aligned(x, y)))
+    return in_blocks(partial(_hypot, rounded), exactly, *map(magnitude, aligned(x, y)))
 
 
-def _hypot(x: Rows, y: Rows) -> tuple[Rows, Mask]:
+def _hypot(rounded: Bounds, x: Rows, y: Rows) -> tuple[Rows, Mask]:
     proved = moderate(x) & moderate(y)
     thin = is_thin(x) and is_thin(y)
     a, b = (Pair(x[1]), Pair(y[1])) if thin else (Pair(x), Pair(y))
     root = (a * a + b * b).sqrt()
-    rows = root.rows() if thin else root.rows(0, 1)
+    below, above = rounded(root)
+    rows = joined(below, above) if thin else joined(below[0], above[1])
     np.minimum(rows[0], 0.0, out=rows[0])
     return rows, proved
 
 
-def atan2(y: Rows, x: Rows) -> Rows:
+def atan2(y: Rows, x: Rows, rounded: Bounds = bounds) -> Rows:
     """Return rows of the angles in (-pi, pi] of the points (x, y), x in X, y in Y.
 
     DomainError if (0, 0) is in a box. A box with points on the cut {x < 0, y = 0}, where the angle
@@ -41,10 +44,10 @@ def atan2(y: Rows, x: Rows) -> Rows:
     def exactly(of_y: Ends, of_x: Ends) -> Ends:
         return fallback.at_corners("atan2", of_y, of_x)
 
-    return in_blocks(_atan2, exactly, *aligned(y, x))
+    return in_blocks(partial(_atan2, rounded), exactly, *aligned(y, x))
 
 
-def _atan2(y: Rows, x: Rows) -> tuple[Rows, Mask]:
+def _atan2(rounded: Bounds, y: Rows, x: Rows) -> tuple[Rows, Mask]:
     """Do `atan2` for a block: both rows are the largest angle, of the box and of its mirror image.
 
     The mirror image in y = 0 has the angles -theta and the rows of -Y, those of Y exchanged. The
@@ -67,7 +70,8 @@ def _atan2(y: Rows, x: Rows) -> tuple[Rows, Mask]:
         sign = np.where(ys < 0.0, -1.0, 1.0)
         sign[0, ys[0] == 0.0] = -1.0
     theta = angle(Pair(np.abs(ys)), Pair(xs)).scaled(sign)
-    rows = np.minimum(theta.rows() if thin else theta.upper(), PI_UP)
+    below, above = rounded(theta)
+    rows = np.minimum(joined(below, above) if thin else above, PI_UP)
     rows[:, crosses] = PI_UP
     proved = moderate(xs) & moderate(ys)
     return rows, crosses | proved

@@ -1,217 +1,221 @@
 """sin and cos of arrays of intervals in binary64, from +, -, * alone, with a proved error.
 
-Theorem. For binary64 |x| <= 1024, `point_sincos` returns S + S' and C + C' with
+Theorem. For binary64 |x| <= 1024, x = 0 or |x| >= 2^-400, `point_sincos` returns S + S' and C + C'
+with
 
-    |S + S' - sin x| <= u |S|,    |C + C' - cos x| <= u |C|,    u = 2^-53,
+    |S + S' - sin x| <= k u |S|,    |C + C' - cos x| <= k u |C|,    u = 2^-53, k = 1/32.
 
-if the processor rounds to nearest (`require_nearest` checks that), and the bounds of `sincos` at
-points are within 3 ulps of the true values. fl is one rounded operation.
+fl is one rounded operation, to nearest. Measured on a million points: 0.005 u for both.
 
-1. Reduction. n = round(fl(2/pi x)). |n| <= 652, and fl(2/pi x) errs by less than 2^-42, so
-   r = x - n pi/2 has |r| < pi/4 + 2^-41. pi/2 = P1 + P2 + P3 + d: P1 is a multiple of 2^-42, P2 one
-   of 2^-84, |P2| < 2^-43, |P3| < 2^-85, |d| < 2^-141. n P1 (53 bits) and n P2 (51 bits) are exact.
-   a = x - n P1 is exact: if n != 0, then |x| > 1/2, both are multiples of 2^-53, and |a| < 1.
-   With b = -n P2, |b| < 2^-33, s = fl(a + b) and e = fl(b - fl(s - a)) satisfy s + e = a + b:
-   if |a| >= 2^-33, because |a| >= |b| (Dekker); else a + b, a multiple of 2^-84 below 2^-32,
-   is a binary64 number, and s = a + b, s - a = b, e = 0. If n = 0, then s = x and e = 0.
-   t = fl(e - fl(n P3)): |e| <= u/2 and |e| <= u |s|, |n P3| < 2^-75. Among the binary64 numbers
-   next to n pi/2, 1 <= n <= 652, none is within 2^-61 (the nearest is next to 29 pi/2; a test
-   lists them all). So |s| > 2^-62 if n != 0, r and s have one sign, and
-       |t| <= 2^-12 |s|,    |t| <= u/2 + 2^-75,
-       |r - (s + t)| <= 652 |d| + u 2^-75 + u |t| <= 2^-10 u |s|.
+1. Reduction. n = round(fl(64/pi x)), |n| < 2^14.4. x = n pi/64 + r, |r| <= 0.02455.
+   pi/64 = P1 + P2 + P3 + d: P1 is a multiple of 2^-42, P2 one of 2^-81, |P2| < 2^-43,
+   |P3| < 2^-83, |d| < 2^-136. n P1 (53 bits) and n P2 (53 bits) are exact.
+   a = x - n P1 is exact: if n != 0, then |x| > 2^-6, both are multiples of 2^-58, and |a| < 2^-5.
+   With b = -n P2, |b| < 2^-28, s = fl(a + b) and e = fl(b - fl(s - a)) satisfy s + e = a + b:
+   if |a| >= 2^-28, because |a| >= |b| (Dekker); else s - a, a multiple of 2^-81 of at most 2^-28
+   in size, is exact, and e is. If n = 0, then s = x and e = 0.
+   t = fl(e - fl(n P3)): |t| <= 2^-59. Next to multiples of pi/2, that is, where 32 divides n != 0,
+   |n P3| <= 2^-9 |s| and |s| >= 2^-62 (a test lists the numbers there), so that r and s
+   have one sign, and |r - (s + t)| <= 2^-8 u |s|; elsewhere it is below 2^-110.
 
-Measured on a million points: 0.77 u for both.
+2. On |r| <= 0.02455, with z = fl(s^2) <= 0.000603: sin r = s + g, g = s z p + t, and cos r = 1 + h,
+   h = z^2 q - z/2, p = -1/3! + z/5! - z^2/7!, q = 1/4! - z/6! + z^2/8!.
+   g, at most 0.0001 |s| + |t|, errs by 4 roundings of itself, by z/2 |t|, and the tail, at most
+   2^-66; h, up to 0.000302, by 2.5 of itself, by |s t| <= 2^-64 and the tail, at most 2^-75.
 
-2. cos r, with z = fl(s^2) <= 0.617. C + C' = 1 - h exactly (Dekker), C being fl(1 - h) and
-   h = fl(z/2 - fl(fl(fl(z^2) q) - fl(s t))), q being Taylor's 1/4! - z/6! + ... + z^6/16! in
-   Horner's form. Absolute errors in units of u: 0.25 from z in z/2 (half the spacing of z < 1 is
-   u/2); 0.10 from fl(z^2 q) <= 0.016, namely four relative errors of u (z twice, z^2, the product)
-   and 0.38 times 0.08 from q, since the coefficient 1/4! and the last sum have half-spacing u/32
-   and the others far less; 0.02 from subtracting s t; 0.02 from the tail, at most z^9/18!; 0.05
-   from s t in place of t sin s, |t| |s|^3 / 6; 0.25 from h < 1/2; 0.01 from step 1 and t^2. The sum
-   is 0.70, and cos r > 0.707, so the error is below u |C|. Where z < 1/2, that is C > 0.75, the
-   errors of z/2 and h are half as large, and the sum is below 0.46.
+3. With A = sin(n pi/64), B = cos(n pi/64), for cos x with A = cos(n pi/64), B = -sin(n pi/64), the
+   result is f = A + B s + A h + B g. A = A1 + A2, A1 a multiple of 2^-26, |A2| <= 2^-27, known to
+   2^-80; B likewise. s = s1 + s2, both of 26 bits. B1 s1 is exact, its sum with A1 is in two parts
+   (Dekker: if A1 != 0, then |A1| >= 0.049). The rest is w = B g + B2 s + B1 s2 + A2 + A h.
+   If 32 does not divide n, then |A| <= 2.01 |f| and |f| >= 0.0245. In units of u:
+   6.5 * 0.000302 |A| from A h and its sums with the others; 0.0004 |A| from s t; 2^-16.6 from four
+   roundings of B g and sums with it; 2^-13 from the tail of B g; 2^-26 each from three others:
+   together below 0.0048 |f| + 0.00014, that is, below 0.02 |f|.
+   If 32 divides n, and A = 0, B = +-1: relative to |s|, the reduction's 2^-8, and 5 roundings of
+   |t| + 0.0001 |s| + |s2|, |t| <= (2^-9 + 2^-53) |s|: below 0.015. If A = +-1, B = 0, then
+   |f| > 0.999, and the errors are the first ones.
 
-3. sin r. S + S' = s + g exactly (Dekker), S = fl(s + g), g = fl(fl(fl(s z) p) + fl(t C)),
-   p = -1/3! + z/5! - ... + z^7/17!. Errors in units of u |s|: 0.31 from three relative errors (z,
-   s z, the product) of a number <= 0.103 |s|; 0.17 = 0.617 * 0.27 from p, since -1/3! and the last
-   sum have half-spacing u/8; 0.11 from the sum with t C; 0.01 from the tail, at most z^9/19!; 0.01
-   from step 1, t C and t^2. The sum is 0.61, and |s| <= 1.111 |sin r|: below 0.7 u |S|.
-   Underflow takes n = 0 and |s| < 2^-100. Then t = 0 and the correction, below 2^-200 |s| + eta
-   with eta = 2^-1074, vanishes beside u |s| if |s| >= 2^-540; else z = 0, S = s, |s|^3 / 6 < u |s|.
-
-4. Quadrant. n mod 4 says which of +-sin r, +-cos r are sin x and cos x; this is exact.
-
-5. Outward step. y + fl(y' + d), d = fl(fl((2 + 2^-8) u |y|) + eta). d loses at most eta / 2 or
-   3 u^2 |y|, and the inner sum at most 4 u^2 |y|. If |y| < 2^-1021 the outer sum is exact; else
-   rounding it to nearest loses at most u (1 + 4u) |y|. Both leave more than y + y' + u |y|.
-   In ulps of y (an ulp is u for 1/2 <= |y| < 1, and u |y| at least), the distance to the true value
-   is at most its error, d, and 1/2 for the last rounding. cos r > 0.75: 0.46 + 2.01 + 0.5.
-   cos r <= 0.75: 0.70 + 2.01 * 0.75 + 0.5. sin r > 1/2: 0.61 * 0.79 + 2.01 * 0.71 + 0.5.
-   sin r <= 1/2, that is z < 0.28, where the list of step 3 is 0.14 + 0.08 + 0.05 + 0.02 times
-   1.05: 0.31 + 2.01 + 0.5. All are below 3.
+4. Extrema. x >= m pi/2 if and only if n > 32 m, or n = 32 m and s >= 0: see `quarters`.
 """
 
+from collections.abc import Sequence
 from fractions import Fraction
-from math import factorial, inf
+from functools import lru_cache, partial
+from math import factorial, inf, isqrt
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from intervals.elementary.binary64.blocks import in_chunks
-from intervals.elementary.binary64.pair import Pair, fast_two_sum
-from intervals.elementary.binary64.polynomial import horner, nearest_integers, polynomial
-from intervals.rounding import (
-    ETA,
-    Rows,
-    all_of,
-    constant,
-    float_down,
-    float_up,
-    require_nearest,
+from intervals.elementary.binary64.blocks import Mask, in_blocks, moderate
+from intervals.elementary.binary64.fallback import Ends
+from intervals.elementary.binary64.pair import Bounds, Pair, bounds, fast_two_sum
+from intervals.elementary.binary64.primitives import (
+    BITS,
+    Table,
+    horner,
+    nearest_integers,
+    split,
+    tables,
 )
+from intervals.rounding import Rows, all_of, constant, float_down, float_up
 from intervals.rows import is_thin
 
 LIMIT = 1024.0
 
-_TWO_OVER_PI = constant(float.fromhex("0x1.45f306dc9c883p-1"))
-_P1 = constant(float.fromhex("0x1.921fb54442c00p+0"))
-_P2 = constant(float.fromhex("0x1.18469898cc000p-44"))
-_P3 = constant(float.fromhex("0x1.45c06e0e68948p-86"))
-_ZERO, _HALF, _ONE, _ETA, _NEAR = map(constant, (0.0, 0.5, 1.0, ETA, LIMIT))
-_PEAKS, _TWO = [np.array(n) for n in range(4)], np.array(2)
-_BIT_0, _BIT_1, _TO_SIGN = (np.array(n, np.uint64) for n in (1, 2, 62))
+_STEPS = 128  # of pi/64 in a turn
+_PER_STEP = float.fromhex("0x1.45f306dc9c883p+4")
+_P1 = float.fromhex("0x1.921fb54440000p-5")
+_P2 = float.fromhex("0x1.68c234c4c8000p-44")
+_P3 = float.fromhex("-0x1.9d747f23e32edp-84")
+_NEAR, _ONE = constant(LIMIT), constant(1.0)
+_PEAKS = (3, 1, 2, 0)  # in quarters, of -sin, sin, -cos, cos
 
-_SIN = polynomial((-1) ** (k // 2) / factorial(k) for k in range(17, 2, -2))
-_COS = polynomial((-1) ** (k // 2) / factorial(k) for k in range(16, 3, -2))
+_SIN = tuple((-1) ** (k // 2) / factorial(k) for k in range(7, 2, -2))
+_COS = tuple((-1) ** (k // 2) / factorial(k) for k in range(8, 3, -2))
 
-_ERROR = 1.0  # in units of u: the theorem
-_STEP = constant((_ERROR + 1.0 + 2.0**-8) * 2.0**-53)
-
-Quadrants = NDArray[np.int64]
+_ERROR = 2.0**-5  # in units of u: the theorem
 
 
-def sincos(rows: Rows) -> tuple[Rows, Rows]:
+def sincos(rows: Rows, rounded: Bounds = bounds) -> tuple[Rows, Rows]:
     """Return rows of sin X and cos X for the intervals X of `rows`, (-lower, upper) each.
 
-    Both lie in [-1, 1]. Where |x| > 1024 occurs the multiprecision `Interval` answers, element
-    by element; elsewhere the theorem above, at the endpoints, with the extrema between them.
+    Both lie in [-1, 1]. Where the theorem does not hold the multiprecision `Interval` answers,
+    element by element; elsewhere the theorem, at the endpoints, with the extrema between them.
     """
-    require_nearest()
-    flat = rows.reshape(2, -1)
-    near = np.abs(flat) <= _NEAR
-    far = () if all_of(near) else np.flatnonzero(~near.all(axis=0))
-    if len(far):
-        within = flat.copy()
-        within[:, far] = 0.0
-    else:
-        within = flat
-    sin, cos = in_chunks(_chunk, within)
-    for index in far:
-        sin[:, index], cos[:, index] = _multiprecision(*flat[:, index].tolist())
-    return sin.reshape(rows.shape), cos.reshape(rows.shape)
+    both = in_blocks(partial(_sincos, rounded), _exactly, rows, few=partial(_few, rounded))
+    return both[0], both[1]
 
 
-def _multiprecision(minus_lower: float, upper: float) -> tuple[tuple[float, float], ...]:
-    """Return the rows of sin and cos of one interval, from the multiprecision functions."""
+def _exactly(x: Ends) -> tuple[Ends, Ends]:
+    """Return bounds of sin and cos over [x[0], x[1]], from the multiprecision functions."""
     from intervals.interval import Interval
 
-    if not upper + minus_lower < inf:
-        return (1.0, 1.0), (1.0, 1.0)
-    x = Interval(Fraction(-minus_lower), Fraction(upper), precision=80)
-    return tuple((-float_down(y.inf), float_up(y.sup)) for y in (x.sin(), x.cos()))
+    if not x[1] - x[0] < inf:
+        return (-1.0, 1.0), (-1.0, 1.0)
+    y = Interval(*map(Fraction, x), precision=80)
+    sin, cos = y.sin(), y.cos()
+    return (float_down(sin.inf), float_up(sin.sup)), (float_down(cos.inf), float_up(cos.sup))
 
 
-def _chunk(rows: Rows) -> Rows:
-    """Do `sincos` for one chunk within the limit: rows of sin X and of cos X."""
-    both = np.empty((2, *rows.shape))
-    sin, cos = both
-    if is_thin(rows):
-        s, c, _, _ = point_sincos(rows[1])
-        sin[0], sin[1] = _bounds(s)
-        cos[0], cos[1] = _bounds(c)
-        return both
-    s, c, n, r = point_sincos(rows)
-    # s holds sin(-lower) = -sin(lower) beside sin(upper), and c cos(lower) beside cos(upper)
-    lower, upper = _bounds(s)
-    np.maximum(upper, lower[::-1], out=sin)
-    for row, bounds in zip(cos, _bounds(c), strict=True):
-        np.maximum(bounds[0], bounds[1], out=row)
+def _sincos(rounded: Bounds, rows: Rows) -> tuple[Rows, Mask]:
+    """Do `sincos` for one block: rows of sin X and of cos X, and where they are proved."""
+    both, thin = np.empty((2, *rows.shape)), is_thin(rows)
+    proved = moderate(rows[1] if thin else rows, large=_NEAR)
+    if thin:
+        sin, cos, _, _ = point_sincos(rows[1])
+        for side, bound in zip((*rounded(sin), *rounded(cos)), both.reshape(4, -1), strict=True):
+            np.minimum(side, _ONE, out=bound)
+        return both, proved
+    sin, cos, n, s = point_sincos(rows)
+    # sin holds sin(-lower) = -sin(lower) beside sin(upper), cos cos(lower) beside cos(upper)
+    below, above = rounded(sin)
+    np.maximum(above, below[::-1], out=both[0])
+    for row, side in zip(both[1], rounded(cos), strict=True):
+        np.maximum(side[0], side[1], out=row)
+    np.minimum(both, _ONE, out=both)
     # lower is in [first, first + 1) pi/2, upper in [last, last + 1) pi/2
-    first, last = quarters(n, r)
+    first, last = quarters(n, s)
     if not all_of(first == last):
-        for bounds, peak in zip((cos[1], sin[1], cos[0], sin[0]), _PEAKS, strict=True):
-            np.copyto(bounds, _ONE, where=_passes(first, last, peak))
-    return both
+        for bound, peak in zip((*both[0], *both[1]), _PEAKS, strict=True):
+            np.copyto(bound, _ONE, where=_passes(first, last, peak))
+    return both, proved
 
 
-def quarters(quadrant: Quadrants, rest: Rows) -> tuple[Quadrants, Quadrants]:
+def _few(rounded: Bounds, a: float, b: float) -> Sequence[float] | None:
+    """Do the same for the interval [-a, b], None where it is not proved."""
+    if not all(x == 0.0 or 2.0**-400 <= abs(x) <= LIMIT for x in (a, b)):
+        return None
+    sin, cos, n, s = point_sincos(b)
+    (sin_below, sin_above), (cos_below, cos_above) = rounded(sin), rounded(cos)
+    if a == -b:
+        return [min(x, 1.0) for x in (sin_below, sin_above, cos_below, cos_above)]
+    sin, cos, n_a, s_a = point_sincos(a)
+    (below, above), cosine = rounded(sin), rounded(cos)
+    first, last = quarters((n_a, n), (s_a, s))
+    of_sin = max(above, sin_below), max(sin_above, below)
+    of_cos = max(cos_below, cosine[0]), max(cos_above, cosine[1])
+    return [
+        1.0 if _passes(first, last, peak) else min(x, 1.0)
+        for x, peak in zip((*of_sin, *of_cos), _PEAKS, strict=True)
+    ]
+
+
+def quarters(n: Any, s: Any) -> tuple[Any, Any]:
     """Return floor(lower / (pi/2)) and floor(upper / (pi/2)) from `point_sincos` of rows.
 
     But where lower is 0 the first is -1 or 0.
     """
-    return -quadrant[0] - (rest[0] > _ZERO), quadrant[1] - (rest[1] < _ZERO)
+    return (-n[0] - (s[0] > 0.0)) >> 5, (n[1] - (s[1] < 0.0)) >> 5
 
 
-def _passes(first: Quadrants, last: Quadrants, peak: Quadrants) -> NDArray[np.bool_]:
+def _passes(first: Any, last: Any, peak: int) -> Any:
     """Return where first < j <= last for some j = peak mod 4, that is, j pi/2 is in (lower, upper].
 
     An extremum at lower itself needs no mention: the value at that endpoint encloses it.
     """
-    passed: NDArray[np.bool_] = (first - peak) >> _TWO != (last - peak) >> _TWO
-    return passed
+    return (first - peak) >> 2 != (last - peak) >> 2
 
 
-def _bounds(y: Pair) -> tuple[Rows, Rows]:
-    """Return upper bounds of -y and of y, at most 1: the outward step above."""
-    step = np.abs(y.hi)
-    step *= _STEP
-    step += _ETA
-    lower = step - y.lo
-    lower -= y.hi
-    step += y.lo
-    step += y.hi
-    return np.minimum(lower, _ONE, out=lower), np.minimum(step, _ONE, out=step)
-
-
-def point_sincos(x: Rows) -> tuple[Pair, Pair, Quadrants, Rows]:
-    """Return sin x, cos x (see the theorem), the quadrant n and s, where x = n pi/2 + s + t."""
-    n, quadrant = nearest_integers(x * _TWO_OVER_PI)
-    s, t = fast_two_sum(x - n * _P1, -(n * _P2))
+def point_sincos(x: Any) -> tuple[Pair, Pair, Any, Any]:
+    """Return sin x, cos x (see the theorem), n and s, where x = n pi/64 + s + t."""
+    n, index = nearest_integers(x * _PER_STEP)
+    s, t = _difference(x - n * _P1, n * _P2)
     n *= _P3
     t -= n
     z = s * s
-    cos = horner(z, _COS)
-    cos *= z * z
-    cos -= s * t
-    half = z * _HALF
-    np.subtract(cos, half, out=cos)
-    sin = horner(z, _SIN)
+    g, h = horner(z, _SIN), horner(z, _COS)
+    h *= z
+    h -= 0.5
+    h *= z
     z *= s
-    sin *= z
-    cosine, cos = fast_two_sum(_ONE, cos)
-    t *= cosine
-    sin += t
-    sine, sin = fast_two_sum(s, sin)
-    _turn((sine, sin), (cosine, cos), quadrant)
-    # an odd quadrant exchanges the errors, too
-    return Pair(sine, sin, _ERROR), Pair(cosine, cos, _ERROR), quadrant, s
+    g *= z
+    g += t
+    index_in_turn = index & (_STEPS - 1)
+    (a, a_low), (b, b_low) = (
+        (high[index_in_turn], low[index_in_turn]) for high, low in _sines_and_cosines()
+    )
+    head, tail = split(s)
+    a_all, b_all = a + a_low, b + b_low
+    sine, low = fast_two_sum(a, b * head)
+    rest = _times_sine(b, b_low, b_all * g, tail, s)
+    rest += a_low
+    rest += a_all * h
+    low += rest
+    cosine, low_cosine = _difference(b, a * head)
+    rest = _times_sine(a, a_low, a_all * g, tail, s)
+    rest -= b_low
+    rest -= b_all * h
+    low_cosine -= rest
+    return Pair(sine, low, _ERROR), Pair(cosine, low_cosine, _ERROR), index, s
 
 
-def _turn(sin: tuple[Rows, Rows], cos: tuple[Rows, Rows], quadrant: Quadrants) -> None:
-    """Replace both parts of sin r, cos r by those of r + quadrant pi/2, in place, on the bits.
+def _times_sine(b: Any, b_low: Any, rest: Any, tail: Any, s: Any) -> Any:
+    """Return B sin r less what is exact: B g + B2 s + B1 s2, given the first of these."""
+    rest += b_low * s
+    rest += b * tail
+    return rest
 
-    An odd quadrant exchanges them; bit 1 of quadrant is the sign of sin, of quadrant + 1 that of
-    cos.
+
+def _difference(a: Any, b: Any) -> tuple[Any, Any]:
+    """Do `fast_two_sum` for a - b."""
+    s = a - b
+    return s, (a - s) - b
+
+
+@lru_cache(maxsize=1)
+def _sines_and_cosines() -> tuple[tuple[Table, Table], tuple[Table, Table]]:
+    """Return both parts of sin(n pi/64) and of cos(n pi/64), n < 128.
+
+    As integers, of BITS places, from pi/2 halved five times, they err by 2^11 units.
     """
-    n = quadrant.view(np.uint64)
-    odd = -(n & _BIT_0)
-    sign_of_sin, sign_of_cos = (n & _BIT_1) << _TO_SIGN, ((n + _BIT_0) & _BIT_1) << _TO_SIGN
-    for part_of_sin, part_of_cos in zip(sin, cos, strict=True):
-        s, c = part_of_sin.view(np.uint64), part_of_cos.view(np.uint64)
-        exchange = s ^ c
-        exchange &= odd
-        s ^= exchange
-        s ^= sign_of_sin
-        c ^= exchange
-        c ^= sign_of_cos
+    one, c = 1 << BITS, 0
+    for _ in range(5):
+        c = isqrt((one + c) << (BITS - 1))
+    s = isqrt((one << BITS) - c * c)
+    quarter, x, y = [0], one, 0
+    for _ in range(31):
+        x, y = (x * c - y * s) >> BITS, (x * s + y * c) >> BITS
+        quarter.append(y)
+    half = [*quarter, one, *quarter[:0:-1]]
+    sines = [*half, *(-value for value in half)]
+    return tables(sines, 26), tables(sines[32:] + sines[:32], 26)

@@ -1,12 +1,9 @@
-(* Formulas of one variable: their values, their enclosures by the intervals of coq-interval in
-   Coq's own integers, and their derivatives. *)
+(* Formulas of one variable: their values, their enclosures, and their derivatives. *)
 From Coq Require Import Reals ZArith Psatz List.
 From Coquelicot Require Import Coquelicot.
-From Interval Require Import Specific_stdz Specific_ops Float_full Interval Xreal Basic.
+From Interval Require Import Float_full Interval Xreal Basic.
+From Oscillator Require Import Numbers.
 Open Scope R_scope.
-
-Module F := SpecificFloat StdZRadix2.
-Module I := FloatIntervalFull F.
 
 Inductive formula :=
   | X | Integer (n : Z) | Pi
@@ -90,9 +87,6 @@ Proof.
   - apply (is_derive_comp sin (value e)); [apply is_derive_sin|tauto].
   - rewrite Ropp_mult_distr_r. apply (is_derive_comp cos (value e)); [apply is_derive_cos|tauto].
 Qed.
-
-(* X, as an interval, contains x. *)
-Definition holds (B : I.type) (x : R) : Prop := contains (I.convert B) (Xreal x).
 
 Section Enclose.
 Variable bits : positive.

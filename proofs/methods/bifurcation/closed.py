@@ -12,22 +12,33 @@ from proofs.methods import derive
 from proofs.methods.bifurcation.certify import charts, confirm
 from proofs.methods.bifurcation.classify import Class, classified
 from proofs.methods.bifurcation.normal_forms import NormalForm
-from proofs.methods.bifurcation.solving import Solution, coefficients, has_roots, points
+from proofs.methods.bifurcation.solving import (
+    Solution,
+    coefficients,
+    has_roots,
+    points,
+    roots_of,
+)
 from proofs.methods.lemmas import Lemmas
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.solutions import solution
 from proofs.trusted.kernel.values import Equal, Series, value
 
 _SIGN_BITS = 200
+ROOT = "root"  # a parameter, where the closed form has a root of parameters
 
 
 @dataclass(frozen=True)
 class Closed:
-    """A candidate in closed form: expressions by name, what it is, and the signs that decide."""
+    """A candidate in closed form: expressions by name, what it is, and the signs that decide.
+
+    root: the square of ROOT, where that is a parameter, by the parameters of the map.
+    """
 
     values: Solution
     found: Class
     signs: Mapping[str, int]
+    root: Any = None
 
     @property
     def kept(self) -> bool:
@@ -43,14 +54,61 @@ def closed(file: Lemmas, form: NormalForm, names: tuple[str, ...]) -> list[Close
     parameter = next(name for name in names if name not in form.map.state)
     candidates = points(form, names)
     if not candidates:
-        raise Undecided(f"no closed form of {', '.join(names)} without roots is found")
-    return [_classified(file, form, each, parameter) for each in candidates]
+        raise Undecided(f"no closed form of {', '.join(names)} is found")
+    plain = [each for each in candidates if not _rooted(each)]
+    found = [_classified(file, form, each, parameter) for each in plain]
+    for each in candidates:
+        if _rooted(each) and not any(_is_reached(each, other) for other in found):
+            found.append(_by_a_root(file, form, names, each))
+    return found
+
+
+def _rooted(point: Solution) -> bool:
+    return any(power.base.free_symbols for power in roots_of(point))
+
+
+def _is_reached(point: Solution, other: Closed) -> bool:
+    """Whether a point is that of a candidate with ROOT, for one sign of it."""
+    import sympy
+
+    if (root := other.root) is None:
+        return False
+    shown = [{ROOT: sign * sympy.sqrt(root)} for sign in (1, -1)]
+    return any(
+        all((point[x] - other.values[x].subs(each)).equals(0) for x in point) for each in shown
+    )
+
+
+def _by_a_root(file: Lemmas, form: NormalForm, names: tuple[str, ...], point: Solution) -> Closed:
+    """Classify a candidate whose root of parameters is a parameter, ROOT, in place of another one.
+
+    If the root is of r, and r = ROOT^2 has one solution for a parameter, a rational one, that is
+    put into the map: what is proved is so for all ROOT, of either sign, at which it is defined.
+    """
+    import sympy
+
+    square = next((x.base for x in roots_of(point) if x.exp.q == 2 and x.base.free_symbols), None)
+    free = {*form.map.parameters} - {*names, ROOT}
+    inside = sorted(free & {str(x) for x in square.free_symbols}) if square is not None else []
+    for name in inside if ROOT not in form.map.parameters else []:
+        values = sympy.solve(square - sympy.Symbol(ROOT) ** 2, sympy.Symbol(name))
+        if len(values) != 1 or has_roots({name: values[0]}):
+            continue
+        moved = replace(form, map=form.map.with_numbers(**{name: derive.write(values[0])}))
+        found = [x for x in points(moved, names) if not _rooted(x) and _uses(x, ROOT)]
+        if found:
+            parameter = next(name for name in names if name not in form.map.state)
+            made = _classified(file, moved, found[0], parameter)
+            return replace(made, values={**made.values, name: values[0]}, root=square)
+    return Closed(point, Class("undecided", "with roots of parameters"), {})
+
+
+def _uses(point: Solution, name: str) -> bool:
+    return any(str(x) == name for value in point.values() for x in value.free_symbols)
 
 
 def _classified(file: Lemmas, form: NormalForm, point: Solution, parameter: str) -> Closed:
     """Classify a candidate, and add the proof; what fails in it is told as why it is dropped."""
-    if has_roots(point) and any(x.free_symbols for x in point.values()):
-        return Closed(point, Class("undecided", "with roots of parameters"), {})
     numbers, steps = Numbers(file, form, point, parameter), dict(file.steps)
     try:
         numbers.require_defined()

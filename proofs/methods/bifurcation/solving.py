@@ -44,10 +44,16 @@ def solutions(equations: list[Any], names: tuple[str, ...]) -> list[Solution]:
 
 def has_roots(point: Solution) -> bool:
     """Whether there are powers that are not whole: the checker has no series of these."""
+    return bool(roots_of(point))
+
+
+def roots_of(point: Solution) -> list[Any]:
+    """Return the powers that are not whole, in an order."""
     import sympy
 
     powers = {power for value in point.values() for power in value.atoms(sympy.Pow)}
-    return any(not power.exp.is_integer and power.base != sympy.E for power in powers)
+    roots = (x for x in powers if not x.exp.is_integer and x.base != sympy.E)
+    return sorted(roots, key=sympy.default_sort_key)
 
 
 def _solved(equations: list[Any], unknowns: list[Any]) -> list[Solution]:

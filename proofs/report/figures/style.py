@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 # Okabe and Ito's colours, which the colour-blind tell apart
 BLUE, ORANGE, GREEN, RED = "#0072B2", "#E69F00", "#009E73", "#D55E00"
-SKY, PURPLE, BLACK, GREY = "#56B4E9", "#CC79A7", "#222222", "#999999"
+PURPLE, BLACK, GREY = "#CC79A7", "#222222", "#999999"
 
 WIDTH = 6.4  # inches
 PROVED = "proved"  # the gid of what a certificate proves

@@ -1,7 +1,7 @@
 "use strict";
 (() => {
   const read = (id) => JSON.parse(document.getElementById(id).textContent);
-  const {patterns, said, roots} = read("cells");
+  const {patterns, said, roots, names} = read("cells");
   const ends = read("ends");
   const map = document.getElementById("map");
   const svg = map.querySelector("svg");
@@ -77,7 +77,7 @@
     const word = verdict ? verdict[0] + verdict.slice(1).toLowerCase() : "Not looked at";
     panel.className = `cell ${verdict}`;
     panel.replaceChildren(element("h2", "This cell"), element("span", word, `chip ${verdict}`),
-      element("p", `η in ${eta}\nν in ${nu}`, "box"), element("p", why, "says"));
+      element("p", `${names[0]} in ${eta}\n${names[1]} in ${nu}`, "box"), element("p", why, "says"));
     for (const [name, value] of Object.entries({x: at.left, y: 1 - at.top,
       width: at.right - at.left, height: at.top - at.bottom})) here.setAttribute(name, value * side);
     here.removeAttribute("hidden");
@@ -179,7 +179,7 @@
     if (look(form.eta.value, form.nu.value)) return;
     shown = null;
     panel.replaceChildren(element("h2", "A cell"), element("p",
-      `No cell is at these numbers; η is from ${ends.eta.join(" to ")}, ν from ${ends.nu.join(" to ")}.`, "bad"));
+      `No cell is at these numbers; ${names[0]} is from ${ends.eta.join(" to ")}, ${names[1]} from ${ends.nu.join(" to ")}.`, "bad"));
   });
   const follow = () => {
     const numbers = location.hash.slice(1).split(",");

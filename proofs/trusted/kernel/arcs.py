@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
@@ -43,11 +45,16 @@ class Arc(Conclusion):
 
     def _holds(self, point: Box) -> bool:
         x, end = point[self.axis]
+        after = bisect_left(self._reached, x)  # and a piece begins where this one ends
         return x == end and any(
             within((x, x), piece.box[self.axis])
             and all(map(within, point, piece.cut(self.axis, x)))
-            for piece in self.pieces
+            for piece in self.pieces[after : after + 2]
         )
+
+    @cached_property
+    def _reached(self) -> list[Fraction]:
+        return [piece.box[self.axis][1] for piece in self.pieces]
 
     @property
     def ends(self) -> Range:

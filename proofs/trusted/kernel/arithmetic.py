@@ -24,6 +24,10 @@ class Unproved(ArithmeticError):
     """A hypothesis of a rule could not be established."""
 
 
+class Futile(Unproved):
+    """The same, and more digits would not help."""
+
+
 class Enclosure:
     """A closed interval of reals with integer endpoints in units of 2^-bits."""
 

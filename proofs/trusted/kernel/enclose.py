@@ -12,7 +12,7 @@ from typing import Any, Protocol, TypeVar
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel import arithmetic
-from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
+from proofs.trusted.kernel.arithmetic import Enclosure, Futile, Unproved, rational
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range, show, show_range
 
@@ -99,12 +99,50 @@ def _log(x: Enclosure) -> Enclosure:
     return low.hull(high)
 
 
+_ATAN_HALVINGS = 3
+_ATAN_GUARD = 16  # bits
+
+
+def _atan(x: Enclosure) -> Enclosure:
+    """Enclose atan, which increases: from the two ends."""
+    low, high = (_atan_of_point(Enclosure(end, end, x.bits)) for end in (x.lo, x.hi))
+    return low.hull(high)
+
+
+def _atan_of_point(x: Enclosure) -> Enclosure:
+    """Enclose atan of a point.
+
+    Proof. atan is odd; atan(y) = pi/2 - atan(1/y) for y > 0; atan(y) = 2 atan(y / (1 + sqrt(1 +
+    y^2))) (half angles). After 3 halvings of y <= 1 it is tan(pi/32) < 1/8 at most, and the terms
+    of y - y^3/3 + y^5/5 - ... alternate and fall: what is left out is smaller than the first
+    term left out, which is below one unit of 2^-bits.
+    """
+    if x.lo < 0:
+        return -_atan_of_point(-x)
+    bits, guard = x.bits + _ATAN_GUARD, _ATAN_GUARD
+    y = Enclosure(x.lo << guard, x.hi << guard, bits)
+    if is_steep := x.lo > 1 << x.bits:
+        y = rational(Fraction(1), bits) / y
+    for _ in range(_ATAN_HALVINGS):
+        y = y / (sqrt(y * y + 1) + 1)
+    total, power, square, n = y, y, y * y, 1
+    while power.hi > 1:
+        power, n = power * square, n + 2
+        total = total - power / n if n % 4 == 3 else total + power / n
+    total = Enclosure(total.lo - 1, total.hi + 1, bits)
+    total = total * 2**_ATAN_HALVINGS
+    if is_steep:
+        total = arithmetic.pi(bits) / 2 - total
+    return Enclosure(total.lo >> guard, -(-total.hi >> guard), x.bits)
+
+
 _FUNCTIONS: dict[str, Callable[[Enclosure], Enclosure]] = {
     "sqrt": sqrt,
     "exp": _exp,
     "log": _log,
     "sin": lambda x: x.sincos()[0],
     "cos": lambda x: x.sincos()[1],
+    "atan": _atan,
 }
 
 
@@ -142,13 +180,23 @@ def point_box(point: Sequence[Fraction]) -> Box:
     return tuple((value, value) for value in point)
 
 
-def tried(compute: Callable[[int], T]) -> Iterator[T]:
-    """Compute something at better and better precisions, where it is defined, while asked."""
-    for bits in PRECISIONS:
+def tried(compute: Callable[[int], T], precisions: Sequence[int] = PRECISIONS) -> Iterator[T]:
+    """Compute something at better and better precisions, where it is defined, while asked.
+
+    Futile where nothing could be computed, and more digits would not help.
+    """
+    is_computed = False
+    for bits in precisions:
         try:
-            yield compute(bits)
+            result = compute(bits)
+        except Futile:
+            if not is_computed:
+                raise
+            return
         except Unproved:
             continue
+        is_computed = True
+        yield result
 
 
 def attempts(
@@ -158,15 +206,31 @@ def attempts(
 
     At each precision the natural form, then its intersection with the mean value form: on a box
     X that contains m, f(x) lies in f(m) + f'(X) (X - m). Both contain the values, so they meet.
+    It ends where more digits no longer help.
     """
+    before: list[Enclosure] = []
     for bits in precisions:
         x = enclosed(box, bits)
         try:
-            values = map_.values(x)
+            natural = map_.values(x)
+            yield natural
+            values = list(map(Enclosure.meet, natural, _mean_value_form(map_, box, x)))
             yield values
-            yield list(map(Enclosure.meet, values, _mean_value_form(map_, box, x)))
+        except Futile:
+            if not before:
+                raise
+            return
         except Unproved:
             continue
+        if before and not is_narrower(values, before):
+            return
+        before = values
+
+
+def is_narrower(values: Sequence[Enclosure], before: Sequence[Enclosure]) -> bool:
+    """Whether the widest of some enclosures is at most half as wide as before, in fewer bits."""
+    now, then = (max(x.hi - x.lo for x in each) for each in (values, before))
+    return 2 * now <= then << (values[0].bits - before[0].bits)
 
 
 def _mean_value_form(map_: Differentiable, box: Box, x: Sequence[Enclosure]) -> list[Enclosure]:

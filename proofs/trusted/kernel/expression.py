@@ -15,8 +15,9 @@ from typing import NamedTuple, Protocol, TypeVar
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.meter import METER
 
-FUNCTIONS = ("sqrt", "exp", "log", "sin", "cos")
+FUNCTIONS = ("sqrt", "exp", "log", "sin", "cos", "atan")
 _MAX_TAPE = 20_000
+_NODE = 25  # work, for the room that one takes
 
 T = TypeVar("T")
 
@@ -52,6 +53,7 @@ class Tape:
         if place == len(self.nodes):
             if place >= _MAX_TAPE:
                 raise Unproved("derivatives of a formula with too many operations")
+            METER.get().spend(_NODE)
             self.nodes.append(node)
         return place
 
@@ -103,8 +105,9 @@ class Tape:
     def derivative(self, root: int, variable: int) -> int:
         """Return the place of the partial derivative, by the rules of calculus, node by node.
 
-        A product with the number 0 is left out, which is right where the other factor is
-        defined: so a derivative is used only together with the root itself.
+        A product with a derivative that is the number 0 is left out, which is right where the other
+        factor is defined: so a derivative is used only together with the root itself. No derivative
+        is left out, not even 0 times that of a root, which has none where its argument is 0.
         """
         if (root, variable) not in self._derivatives:
             tangents: dict[int, int] = {}
@@ -124,19 +127,19 @@ class Tape:
             return self.number(0)
         match op:
             case "+":
-                result = self._sum(*slopes)
+                result = self.sum(*slopes)
             case "-":
-                result = self._sum(slopes[0], self._negative(slopes[1]))
+                result = self.sum(slopes[0], self._negative(slopes[1]))
             case "negative":
                 result = self._negative(slopes[0])
             case "*":
                 a, b = arguments
-                result = self._sum(self._product(slopes[0], b), self._product(a, slopes[1]))
+                result = self.sum(self.product(slopes[0], b), self.product(slopes[1], a))
             case "/":  # (a / b)' = (a' - (a / b) b') / b
-                fall = self._negative(self._product(place, slopes[1]))
-                result = self.add("/", self._sum(slopes[0], fall), arguments[1])
+                fall = self._negative(self.product(slopes[1], place))
+                result = self.add("/", self.sum(slopes[0], fall), arguments[1])
             case _:
-                result = self._product(self._rate(op, place, arguments[0], datum), slopes[0])
+                result = self.product(slopes[0], self._rate(op, place, arguments[0], datum))
         return result
 
     def _rate(self, op: str, place: int, a: int, n: Fraction) -> int:
@@ -144,7 +147,7 @@ class Tape:
         match op:
             case "^":
                 lower = self.number(1) if n == 1 else self.add("^", a, datum=n - 1)
-                rate = self._product(self.number(n), lower)
+                rate = self.product(self.number(n), lower)
             case "sqrt":
                 rate = self.add("/", self.number(Fraction(1, 2)), place)
             case "exp":
@@ -153,8 +156,11 @@ class Tape:
                 rate = self.add("/", self.number(1), a)
             case "sin":
                 rate = self.add("cos", a)
-            case _:  # cos
+            case "cos":
                 rate = self.add("negative", self.add("sin", a))
+            case _:  # atan
+                square = self.add("^", a, datum=Fraction(2))
+                rate = self.add("/", self.number(1), self.add("+", self.number(1), square))
         return rate
 
     def _is(self, place: int, value: int) -> bool:
@@ -164,12 +170,14 @@ class Tape:
     def _negative(self, a: int) -> int:
         return a if self._is(a, 0) else self.add("negative", a)
 
-    def _sum(self, a: int, b: int) -> int:
+    def sum(self, a: int, b: int) -> int:
+        """Return the place of a + b; b where a is the number 0, and so on."""
         if self._is(a, 0):
             return b
         return a if self._is(b, 0) else self.add("+", a, b)
 
-    def _product(self, a: int, b: int) -> int:
-        if self._is(a, 0) or self._is(b, 1):
-            return a
-        return b if self._is(b, 0) or self._is(a, 1) else self.add("*", a, b)
+    def product(self, slope: int, factor: int) -> int:
+        """Return the place of a product; 0 where the slope is the number 0 (see `derivative`)."""
+        if self._is(slope, 0) or self._is(factor, 1):
+            return slope
+        return factor if self._is(slope, 1) else self.add("*", slope, factor)

@@ -25,18 +25,16 @@ from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
-from proofs.trusted.kernel.enclose import Matrix, add, enclosed
-from proofs.trusted.kernel.expression import Tape
+from proofs.trusted.kernel.enclose import Box, Matrix, add, enclosed
 from proofs.trusted.kernel.formulas import (
     MAX_VALUES,
-    MAX_VARIABLES,
     Circle,
     Formulas,
     Placer,
+    same_form,
 )
 from proofs.trusted.kernel.gaps import stays_up
 from proofs.trusted.kernel.head import optional, read_head, require_name, require_periods
-from proofs.trusted.kernel.normalform import NormalForms, plus
 from proofs.trusted.kernel.trees import (
     Derivative,
     Operation,
@@ -143,10 +141,27 @@ class Flight:
         return self.on(self.outcome, x, self.impact(x))
 
     def jacobian(self, x: Sequence[Enclosure]) -> Matrix:
-        """Enclose F_x - F_t gap_x / gap_t (implicit function theorem: gap_t < 0)."""
-        t, n = self.impact(x), self.state
+        """Enclose the derivative by the state."""
+        return self._slopes(x, range(self.state))
+
+    @property
+    def ranges(self) -> Box:
+        """Those of the parameters."""
+        return self.formulas.ranges
+
+    def pinned(self) -> Flight:
+        """Return the map at the middle of the ranges."""
+        return Flight(self.formulas.pinned(), self.state, self.gaps, self.motions)
+
+    def sensitivity(self, x: Sequence[Enclosure]) -> Matrix:
+        """Enclose the derivative by the parameters."""
+        return self._slopes(x, [self.state + 1 + k for k in range(len(self.ranges))])
+
+    def _slopes(self, x: Sequence[Enclosure], by: Sequence[int]) -> Matrix:
+        """Enclose F_y - F_t gap_y / gap_t for inputs y (implicit function theorem: gap_t < 0)."""
+        t, n, tape = self.impact(x), len(by), self.formulas.tape
         roots = (self.gaps[0].orders[0], *self.outcome)
-        wanted = [self.formulas.tape.derivative(root, v) for root in roots for v in range(n + 1)]
+        wanted = [tape.derivative(root, v) for root in roots for v in (*by, self.state)]
         entries = self.on((*wanted, *roots), x, t)
         (*gap, fall), *rows = (entries[i * (n + 1) : (i + 1) * (n + 1)] for i in range(len(roots)))
         return [[a - row[n] * g / fall for a, g in zip(row, gap, strict=False)] for row in rows]
@@ -344,19 +359,12 @@ def _require_solution(placer: Placer, time: str, motion: Motion, orders: Mapping
         if tree.free & {time, *orders}:
             raise Unproved("a start does not depend on the time, nor on motions")
         placer.parts += rate, start
-        if not _equal(tape, tape.moved([rate], {clock: tape.number(0)})[0], start):
+        if not same_form(tape, tape.moved([rate], {clock: tape.number(0)})[0], start):
             raise Unproved(f"the form of {motion.name} is not proved to start so")
         rate = tape.derivative(rate, int(tape.nodes[clock].datum))
     placer.parts += rate, right
-    if not _equal(tape, rate, right):
+    if not same_form(tape, rate, right):
         raise Unproved(f"the form of {motion.name} is not proved to solve this equation")
-
-
-def _equal(tape: Tape, one: int, two: int) -> bool:
-    """Whether two functions have the same normal form: they agree where both are defined."""
-    forms = NormalForms(MAX_VARIABLES)
-    left, right = tape.evaluate((one, two), forms, forms.inputs())
-    return forms.is_zero(plus(left, right, -1))
 
 
 def _require_explicit(tree: Tree, time: str, orders: Mapping[str, int]) -> None:
@@ -374,7 +382,7 @@ def _require_explicit(tree: Tree, time: str, orders: Mapping[str, int]) -> None:
             is_explicit = name in orders and len(by) < orders[name] and {*by} == {time}
         case Operation(op="/", parts=(top, bottom)):
             is_explicit, parts = not bottom.free & {*orders}, (top,)
-        case Operation(op="+" | "-" | "*" | "negative" | "sin" | "cos" | "exp"):
+        case Operation(op="+" | "-" | "*" | "negative" | "sin" | "cos" | "exp" | "atan"):
             is_explicit, parts = True, tree.parts
         case Power(exponent=n):
             is_explicit, parts = n > 0, tree.parts
@@ -396,7 +404,7 @@ def _gap(placer: Placer, time: str, tree: Tree, reader: Reader) -> Gap:
         if order == len(orders):
             orders.append(tape.derivative(orders[-1], int(tape.nodes[clock].datum)))
         start = tape.moved([orders[order]], {clock: tape.number(0)})[0]
-        if not _equal(tape, start, tape.number(0)):
+        if not same_form(tape, start, tape.number(0)):
             placer.parts += orders[: max(order, 2)]
             return Gap(tuple(orders), order)
     raise reader.fail("the gap is 0 at launch, with all its first derivatives")

@@ -10,8 +10,9 @@ from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
-from proofs.trusted.kernel.enclose import Enclosures, Matrix, enclosed
+from proofs.trusted.kernel.enclose import Enclosures, Matrix, centre_of, enclosed, point_box
 from proofs.trusted.kernel.expression import Tape
+from proofs.trusted.kernel.normalform import NormalForms, plus
 from proofs.trusted.kernel.trees import (
     At,
     Derivative,
@@ -79,8 +80,19 @@ class Formulas:
 
     def jacobian(self, x: Sequence[Enclosure]) -> Matrix:
         """Enclose the partial derivatives, a row a function, which are proved defined, too."""
-        n = len(self.variables)
-        partials = [self.tape.derivative(root, v) for root in self.roots for v in range(n)]
+        return self._slopes(x, range(len(self.variables)))
+
+    def pinned(self) -> Formulas:
+        """Return the map with each parameter at the middle of its range."""
+        return replace(self, ranges=point_box(centre_of(self.ranges)))
+
+    def sensitivity(self, x: Sequence[Enclosure]) -> Matrix:
+        """Enclose the derivatives by the parameters."""
+        return self._slopes(x, [len(self.variables) + k for k in range(len(self.ranges))])
+
+    def _slopes(self, x: Sequence[Enclosure], by: Sequence[int]) -> Matrix:
+        n = len(by)
+        partials = [self.tape.derivative(root, v) for root in self.roots for v in by]
         entries = self.enclose((*partials, *self.roots), x)
         return [entries[i * n : (i + 1) * n] for i in range(len(self.roots))]
 
@@ -194,3 +206,10 @@ class Placer:
         if op == "/" and a.op == b[0].op == "number" and b[0].datum:
             return self.tape.number(a.datum / b[0].datum)
         return self.tape.add(op, *places)
+
+
+def same_form(tape: Tape, one: int, two: int) -> bool:
+    """Whether two functions have the same normal form: they agree where both are defined."""
+    forms = NormalForms(MAX_VARIABLES)
+    left, right = tape.evaluate((one, two), forms, forms.inputs())
+    return forms.is_zero(plus(left, right, -1))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from types import MappingProxyType
 from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
@@ -30,6 +31,7 @@ _BITS = 64
 class Head(NamedTuple):
     """What a map's formulas are of: the state, a flight's time, parameters.
 
+    state: of a flow, the variables of the map, then those that flow.
     numbers: parameters with one value; ranges: those with more.
     """
 
@@ -60,10 +62,10 @@ class Head(NamedTuple):
         return Placer(tape, places | numbers, [])
 
     def _circle(self, placer: Placer, angle: str, period: Tree) -> Circle:
-        tape, root = placer.tape, placer.place(period)
-        if any(tape.nodes[place].op == "variable" for place in tape.order((root,))):
+        if not period.free <= {*self.numbers}:
             raise Unproved(f"a period is a number, and that of {angle} is none")
-        (value,) = tape.evaluate((root,), Enclosures(_BITS), ())
+        root = placer.place(period)
+        (value,) = placer.tape.evaluate((root,), Enclosures(_BITS), ())
         if value.lo <= 0:
             raise Unproved(f"a period is positive, and that of {angle} is not")
         values = (f"{name} = {self.numbers[name]}" for name in sorted(period.free))
@@ -84,7 +86,12 @@ def read_head(name: str, reader: Reader) -> Head:
     """Read the variables, the time, the parameters and the periods of a map."""
     require_function_name(reader, name)
     fields = dict(reader.entries())
-    state = tuple(item.string() for item in fields["variables"].items(1, MAX_VARIABLES))
+    state = tuple(
+        item.string()
+        for key in ("variables", "state")
+        if key in fields
+        for item in fields[key].items(1, MAX_VARIABLES)
+    )
     time = (fields["time"].string(),) if "time" in fields else ()
     sides = {
         each: item.range()
@@ -99,7 +106,7 @@ def read_head(name: str, reader: Reader) -> Head:
     ranges = {each: ends for each, ends in sides.items() if each not in numbers}
     periods = dict(fields["periods"].entries()) if "periods" in fields else {}
     for each, period in periods.items():
-        if each not in state:
+        if each not in state[: len(fields["variables"].items())]:
             raise period.fail(f"a period of what is no variable: {each[:30]!r}")
     trees = {each: read_tree(period) for each, period in periods.items()}
     return Head(state, time, numbers, ranges, trees)
@@ -136,13 +143,18 @@ def optional(reader: Reader) -> list[str]:
 
 
 def require_periods(
-    reader: Reader, formulas: Formulas, values: Sequence[int], others: Sequence[int] = ()
+    reader: Reader,
+    formulas: Formulas,
+    values: Sequence[int],
+    others: Sequence[int] = (),
+    starts: Mapping[int, int] = MappingProxyType({}),
 ) -> None:
     """Raise Malformed unless formulas respect the periods of the angles.
 
     With x + P, P the period of an angle, in the place of x, each of the values changes by a
     multiple of its own period if it is the image of an angle, else not; nor do the others. That is
-    seen in the normal forms, which are right wherever both sides are defined.
+    seen in the normal forms, which are right wherever both sides are defined. starts: of states
+    that flow, from their places: as much as a start changes, so much is its state moved.
     """
     if not formulas.circles:
         return
@@ -150,7 +162,11 @@ def require_periods(
     own = {circle.place: circle.root for circle in formulas.circles}
     for circle in formulas.circles:
         angle = tape.add("variable", datum=Fraction(circle.place))
-        turned = tape.moved((*values, *others), {angle: tape.add("+", angle, circle.root)})
+        moves = {angle: tape.add("+", angle, circle.root)}
+        later = tape.moved(tuple(starts.values()), moves)
+        for (state, before), after in zip(starts.items(), later, strict=True):
+            moves[state] = tape.add("+", state, tape.add("-", after, before))
+        turned = tape.moved((*values, *others), moves)
         for k, (before, after) in enumerate(zip((*values, *others), turned, strict=True)):
             roots = (before, after, own[k] if k < len(values) and k in own else before)
             one, two, period = tape.evaluate(roots, forms, forms.inputs())

@@ -1,8 +1,9 @@
-"""Maps of a file: formulas, flights, compositions; their parameters, and their angles.
+"""Maps of a file: formulas, flights, flows, compositions; their parameters, and their angles.
 
 A function of a file is an object {variables, values}: a formula; with `parameters` {name: range}
 too, and with `periods` {variable: formula} of those variables that are angles. It is a flight if it
-has `time`, `motion` and `gaps` as well (see `flight`), a composition if it has `maps` alone.
+has `time`, `motion` and `gaps` as well (see `flight`), a flow without a closed form if it has a
+`field` (see `flow`), a composition if it has `maps` alone.
 """
 
 from __future__ import annotations
@@ -14,12 +15,14 @@ from typing import Protocol
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure
-from proofs.trusted.kernel.enclose import Differentiable, Matrix, multiply
+from proofs.trusted.kernel.enclose import Box, Differentiable, Matrix, multiply
 from proofs.trusted.kernel.flight import read_flight
+from proofs.trusted.kernel.flow import read_flow
 from proofs.trusted.kernel.formulas import Circle
 from proofs.trusted.kernel.head import read_function, require_function_name
+from proofs.trusted.kernel.parametric import Parametric, chained, ranges_of
 
-_MOST_MAPS = 20
+_MOST_MAPS = 100
 
 
 class Map(Differentiable, Protocol):
@@ -44,7 +47,7 @@ class Map(Differentiable, Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Composition:
-    """The maps one after the other, the first first."""
+    """The maps one after the other, the first first; none of them is a composition."""
 
     name: str
     maps: tuple[Map, ...]
@@ -75,6 +78,22 @@ class Composition:
         """Enclose the periods."""
         return self.maps[0].periods(bits)
 
+    @property
+    def ranges(self) -> Box:
+        """Those of all maps; none where one of them has no derivatives by its parameters."""
+        known = all(isinstance(each, Parametric) for each in self.maps)
+        return tuple(side for each in self.maps for side in ranges_of(each)) if known else ()
+
+    def pinned(self) -> Composition:
+        """Return the map at the middle of the ranges."""
+        maps = [each.pinned() for each in self.maps if isinstance(each, Parametric)]
+        return Composition(self.name, tuple(maps))
+
+    def sensitivity(self, x: Sequence[Enclosure]) -> Matrix:
+        """Enclose the derivatives by the parameters, by those of each map in turn."""
+        maps = [each for each in self.maps if isinstance(each, Parametric)]
+        return chained(maps, x, shared=False)
+
     def values(self, x: Sequence[Enclosure]) -> list[Enclosure]:
         """Enclose the values on a box."""
         return reduce(lambda point, each: each.values(point), self.maps, list(x))
@@ -92,6 +111,8 @@ def read_map(name: str, reader: Reader, maps: Mapping[str, Map]) -> Map:
     """Read a function of a file; maps: those before it, of which a composition may be made."""
     if reader.has("maps"):
         return _read_composition(name, reader, maps)
+    if reader.has("field"):
+        return read_flow(name, reader)
     if reader.has("gaps"):
         return read_flight(name, reader)
     return read_function(name, reader)
@@ -100,15 +121,16 @@ def read_map(name: str, reader: Reader, maps: Mapping[str, Map]) -> Map:
 def _read_composition(name: str, reader: Reader, maps: Mapping[str, Map]) -> Composition:
     (names_of,) = reader.fields("maps")
     require_function_name(reader, name)
-    chain = []
+    chain: list[Map] = []
     for each in names_of.items(2, _MOST_MAPS):
         if each.string() not in maps:
             raise each.fail(f"names no function before this one: {each.string()[:30]!r}")
-        chain.append(maps[each.string()])
-    first = chain[0]
-    for each, map_ in zip(names_of.items(), chain, strict=True):
-        if not same_state(first, map_) or map_.size != len(first.variables):
+        map_ = maps[each.string()]
+        chain += map_.maps if isinstance(map_, Composition) else [map_]
+        if not same_state(chain[0], map_) or map_.size != len(chain[0].variables):
             raise each.fail("maps that follow each other have one state, with the same angles")
+    if len(chain) > _MOST_MAPS:
+        raise names_of.fail(f"more than {_MOST_MAPS} maps, one after the other")
     return Composition(name, tuple(chain))
 
 

@@ -21,7 +21,7 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.enclose import size
 from proofs.trusted.kernel.meter import METER
 
-_MOST_DIGITS = 20_000  # bits of a coefficient
+MOST_DIGITS = 20_000  # bits of a coefficient
 
 Exponent = Fraction | int
 Monomial = tuple[tuple[int, Exponent], ...]  # (generator, exponent not 0), generators increasing
@@ -60,7 +60,7 @@ def power(place: int, n: Exponent = 1) -> Polynomial:
 
 def plus(a: Polynomial, b: Polynomial, factor: Fraction | int = 1) -> Polynomial:
     """Return a + factor b."""
-    METER.get().spend(2 * (len(a) + len(b)))
+    METER.get().spend(3 * (len(a) + len(b)))
     result = dict(a)
     for monomial, value in b.items():
         _accumulate(result, monomial, factor * value)
@@ -142,6 +142,7 @@ class NormalForms:
         left. None of the polynomials is 0 where the normal form is defined.
         """
         factors: dict[int, int] = {}
+        METER.get().spend(2 * len(polynomial))
         while places := {g for monomial in polynomial for g, n in monomial if self._left(g, n)}:
             place = max(places)
             parts: dict[int, Polynomial] = {}
@@ -166,12 +167,15 @@ class NormalForms:
         """Return the product, with the squares of i and of roots replaced."""
         METER.get().spend(5 * len(a) * len(b) + len(b) * _weight(a) + len(a) * _weight(b))
         product: Polynomial = {}
+        longest = max(map(len, b), default=0)
         for one, c in a.items():
+            before = len(product)
             for two, d in b.items():
                 _accumulate(product, _merge(one, two), c * d)
+            METER.get().spend((len(product) - before) * (4 + len(one) + longest))
         while places := {g for m in product for g, n in m if n > 1 and g in self._squares}:
             product = self._without_square(product, max(places))
-        if any(size(value) > _MOST_DIGITS for value in product.values()):
+        if any(size(value) > MOST_DIGITS for value in product.values()):
             raise Unproved("a coefficient with too many digits")
         return product
 
@@ -201,6 +205,7 @@ class NormalForms:
         rest, factors = self.cleared(a)
         if not rest:
             raise Unproved("a division by the polynomial 0")
+        METER.get().spend(3 * _weight(rest))
         divisor = tuple(sorted(lowest(rest).items()))
         terms = sorted(over(rest, divisor).items())
         scaled = tuple((monomial, value / terms[0][1]) for monomial, value in terms)
@@ -235,7 +240,7 @@ class NormalForms:
         return self.times(plus(one, other, -1), {((self.imaginary, 1),): Fraction(-1, 2)})  # / 2i
 
     def _function(self, op: str, argument: Polynomial) -> Polynomial:
-        """Return log or sqrt of an argument: a generator, or the number that it is."""
+        """Return log, atan or sqrt of an argument: a generator, or the number that it is."""
         exact = _exact(op, argument)
         if exact is not None:
             return number(exact)
@@ -252,12 +257,12 @@ class NormalForms:
 
 
 def _exact(op: str, argument: Polynomial) -> Fraction | None:
-    """Return log(1) = 0, and the root of 0 or of the square of a rational number."""
+    """Return log(1) = atan(0) = 0, and the root of 0 or of the square of a rational number."""
     if not set(argument) <= {()}:
         return None
     value = argument.get((), Fraction(0))
-    if op == "log":
-        return Fraction(0) if value == 1 else None
+    if op != "sqrt":
+        return Fraction(0) if value == int(op == "log") else None
     if value < 0:
         return None
     root = Fraction(isqrt(value.numerator), isqrt(value.denominator))
@@ -276,7 +281,7 @@ def _accumulate(polynomial: Polynomial, monomial: Monomial, value: Fraction) -> 
 
 def _weight(polynomial: Polynomial) -> int:
     """Return the work of a factor, for each term of the other one."""
-    return sum(len(each) + (size(value) >> 4) for each, value in polynomial.items())
+    return sum(1 + len(each) + (size(value) >> 4) for each, value in polynomial.items())
 
 
 def _whole(value: Fraction) -> Exponent:

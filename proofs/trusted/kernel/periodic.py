@@ -5,7 +5,7 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 
@@ -26,6 +26,7 @@ from proofs.trusted.kernel.enclose import (
 )
 from proofs.trusted.kernel.maps import Map
 from proofs.trusted.kernel.meter import METER
+from proofs.trusted.kernel.parametric import Parametric, chained, ranges_of
 from proofs.trusted.kernel.zeros import read_matrix, require_zero
 from proofs.trusted.numbers import within
 
@@ -127,6 +128,17 @@ class Closing:
 
     def jacobian(self, x: Sequence[Enclosure]) -> Matrix:
         return less_one(derivative(self.map, images(self.map, x, self.power)))
+
+    @property
+    def ranges(self) -> Box:
+        return ranges_of(self.map)
+
+    def pinned(self) -> Closing:
+        return replace(self, map=self.map.pinned()) if isinstance(self.map, Parametric) else self
+
+    def sensitivity(self, x: Sequence[Enclosure]) -> Matrix:
+        maps = [self.map] * self.power if isinstance(self.map, Parametric) else []
+        return chained(maps, x, shared=True)
 
 
 def less_one(matrix: Matrix) -> Matrix:

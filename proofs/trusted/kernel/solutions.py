@@ -23,10 +23,10 @@ class Expressions(Conclusion):
     lemmas: tuple[Equal | Series, ...]
 
     def __post_init__(self) -> None:
-        unknowns = [name for name, _ in self.expressions]
-        if not unknowns or not all(map(is_name, unknowns)):
-            raise Unproved("names of unknowns are expected")
-        if any(text.free & {*unknowns} for _, text in self.expressions):
+        unknowns = {name for name, _ in self.expressions}
+        if not 0 < len(unknowns) <= _MOST or not all(map(is_name, unknowns)):
+            raise Unproved(f"names of up to {_MOST} unknowns are expected")
+        if any(text.free & unknowns for _, text in self.expressions):
             raise Unproved("an expression for an unknown has no unknowns")
 
     @property
@@ -37,7 +37,7 @@ class Expressions(Conclusion):
 
 
 def solution(_: Context, reader: Reader) -> Expressions:
-    """Rule `formula-solution`: {expressions: {unknown: formula}, lemmas}.
+    """Rule `formula-solution`: {expressions: {unknown: formula}, lemmas}, at most 40 of each.
 
     lemmas: a list of {left, right} and {function, variable, coefficients, nonzero}, the variable
     being no unknown. Hypothesis: by `formula-equal` and `formula-series` each holds with at(F,

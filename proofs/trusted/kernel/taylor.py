@@ -72,6 +72,7 @@ class Taylor:
 
     def coefficients(self, polynomial: Polynomial, length: int) -> list[Polynomial]:
         """Return the coefficients of x^-k, ..., x^(length - 1 - k), x^-k being its pole."""
+        METER.get().spend(10 * length)
         groups: dict[Monomial, Polynomial] = {}  # by what varies with x
         for monomial, value in polynomial.items():
             varying = tuple(each for each in monomial if self._varies(each[0]))

@@ -12,7 +12,7 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import Box, attempts, box_text, decide, leaves
-from proofs.trusted.kernel.formulas import Formulas, on_tape, read_formulas
+from proofs.trusted.kernel.formulas import Formulas, on_tape, read_formulas, same_form
 from proofs.trusted.kernel.normalform import NormalForms, number, plus, power
 from proofs.trusted.kernel.taylor import Taylor
 from proofs.trusted.kernel.trees import (
@@ -56,9 +56,7 @@ class Equal(Conclusion):
     def prove(self) -> None:
         """Raise Unproved unless it holds by `formula-equal`."""
         formulas = on_tape(*self.formulas)
-        forms = NormalForms(len(formulas.variables))
-        a, b = formulas.tape.evaluate(formulas.roots, forms, forms.inputs())
-        if not forms.is_zero(plus(a, b, -1)):
+        if not same_form(formulas.tape, *formulas.roots):
             raise Unproved("the normal forms of the two sides differ")
 
     @property
@@ -134,11 +132,15 @@ class Series(Conclusion):
     @property
     def sentence(self) -> str:
         """Return the series."""
-        where = ", ".join(f"`{each}`" for each in self.nonzero)
+        coefficients = on_tape(*self.coefficients)
+        nonzero = ", ".join(f"`{each}`" for each in self.nonzero)
+        where = [f"{nonzero} are not 0"] if nonzero else []
+        if any(map(coefficients.tape.may_fail, coefficients.roots)):
+            where.append("the coefficients are defined")
         rest = Power(len(self.coefficients), (self.variable,))
         return (
             f"`{self.function} = {self.polynomial} + O({rest})` as `{self.variable}` -> 0"
-            f"{f' where {where} are not 0' if where else ''}."
+            f"{' where ' if where else ''}{' and '.join(where)}."
         )
 
 
@@ -262,7 +264,7 @@ def _divisors(formulas: Formulas) -> list[int]:
     found = []
     for place in formulas.tape.order((formulas.roots[0], *formulas.parts)):
         op, arguments, datum = formulas.tape.nodes[place]
-        if op in ("sqrt", "log"):
+        if op in ("sqrt", "log", "atan"):
             raise Unproved(f"no series of {op}")
         if op == "/" or (op == "^" and datum < 0):
             found.append(arguments[-1])

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.kernel.arithmetic import Unproved, rational
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import (
@@ -18,6 +18,7 @@ from proofs.trusted.kernel.enclose import (
     box_text,
     centre_of,
     enclosed,
+    is_narrower,
     point_box,
     read_box,
     sign_on,
@@ -26,6 +27,7 @@ from proofs.trusted.kernel.enclose import (
 from proofs.trusted.kernel.formulas import read_formulas
 from proofs.trusted.kernel.maps import Map
 from proofs.trusted.kernel.meter import METER
+from proofs.trusted.kernel.parametric import moved
 from proofs.trusted.kernel.trees import Derivative, Tree, Variable
 from proofs.trusted.kernel.values import Value
 from proofs.trusted.numbers import Range, hull, show_range, within
@@ -133,8 +135,9 @@ def unique_zero(context: Context, reader: Reader) -> UniqueZero:
     g(x) = x - C F(x) = m - C F(m) + (I - C B) (x - m) maps X into K. With widths w of X, all
     positive, and R the magnitudes of I - C J, (R w)_i <= wid K_i < w_i: g is a contraction of X
     in the norm max |x_i| / w_i and has one fixed point; and C is regular, since |I - C B| < 1, so
-    the fixed points are the zeros. Source: Krawczyk 1969; Moore 1977; for n = 1 with
-    C = 1 / F'(m) this is Newton's method with a remainder.
+    the fixed points are the zeros. With parameters in ranges that is said of each of them, and
+    C F(m) is enclosed for all, by the mean value theorem in the parameters. Source: Krawczyk 1969;
+    Moore 1977; for n = 1 with C = 1 / F'(m) this is Newton's method with a remainder.
     """
     function_of, box_of, middle_of, matrix_of = reader.fields("function", "box", "centre", "matrix")
     function = context.function(function_of)
@@ -168,19 +171,25 @@ def require_zero(
     """
     piece = Piece(box, tuple(slope) or (Fraction(0),) * len(box))
     middle, sides = tuple(centre) or centre_of(box), inside or box
-    for image in tried(lambda bits: _krawczyk(function, piece, middle, matrix, (axis, bits))):
-        if all(sides[k][0] < low and high < sides[k][1] for k, (low, high) in image.items()):
+    before: list[Enclosure] = []
+    for image in tried(lambda bits: krawczyk(function, piece, middle, matrix, (axis, bits))):
+        if all(sides[k][0] < x.range[0] and x.range[1] < sides[k][1] for k, x in image.items()):
             return
+        if any(x.range[1] < sides[k][0] or sides[k][1] < x.range[0] for k, x in image.items()):
+            raise Unproved("the Krawczyk operator does not map the box strictly inside, but away")
+        if before and not is_narrower([*image.values()], before):
+            break
+        before = [*image.values()]
     raise Unproved("the Krawczyk operator does not map the box strictly inside")
 
 
-def _krawczyk(
+def krawczyk(
     function: Differentiable,
     piece: Piece,
     centre: Sequence[Fraction],
     matrix: Rows,
     how: tuple[int | None, int],
-) -> dict[int, Range]:
+) -> dict[int, Enclosure]:
     """Enclose K by variables, but the axis; how: the axis, or None, and the precision."""
     METER.get().spend(100 * len(matrix) ** 2)
     axis, bits = how
@@ -188,7 +197,7 @@ def _krawczyk(
     x, middle = enclosed(piece.box, bits), enclosed(point_box(centre), bits)
     steps = [a - m for a, m in zip(x, middle, strict=True)]
     slope = [rational(each, bits) for each in piece.slope]
-    values, nothing = function.values(middle), rational(Fraction(0), bits)
+    values, nothing = moved(function, middle), rational(Fraction(0), bits)
     slopes = function.jacobian(enclosed(whole, bits))
     if axis is not None:
         slopes = [[*row[:axis], add(row[axis], row, slope), *row[axis + 1 :]] for row in slopes]
@@ -196,5 +205,5 @@ def _krawczyk(
     for i, entries in zip((k for k in range(len(x)) if k != axis), matrix, strict=True):
         c = [rational(entry, bits) for entry in entries]
         defect = [int(i == j) - add(nothing, c, column) for j, column in enumerate(columns)]
-        image[i] = add(middle[i] - add(nothing, c, values), defect, steps).range
+        image[i] = add(middle[i] - values.combined(c), defect, steps)
     return image

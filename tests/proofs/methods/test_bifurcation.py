@@ -184,6 +184,31 @@ def test_what_a_candidate_is(condition, lines, wanted):
         assert found[place].kept or found[place].found.why
 
 
+@pytest.mark.parametrize("root", ["1/2", "-3", "7/5"])
+@pytest.mark.parametrize(
+    ("lines", "names"),
+    [
+        (("x1 = a*x - b*x^3",), ("x", "a")),
+        (("x1 = a*x - b*x^3 + c*x^2",), ("x", "a")),
+        (("x1 = 1 - a*x^2 + y", "y1 = b*x"), ("x", "y", "b")),
+    ],
+)
+def test_roots_of_parameters(lines, names, root):
+    """A root is a parameter of its own: at its numbers it is a flip of the map as it was given."""
+    found = [each for each in candidates("flip", names, *lines) if each.root is not None]
+    assert len(found) == 1 and found[0].found.kind == "flip"
+    numbers = {name: x.subs({"root": root, "c": 2}) for name, x in found[0].values.items()}
+    state = sympy.symbols(names[:-1])
+    images = [sympy.sympify(each.split("=")[1].replace("^", "**")) for each in lines]
+    places = {"c": 2, **{x: numbers[x] for x in (*names, "a", "b") if x in numbers}}
+    assert all((f - x).subs(places).equals(0) for f, x in zip(images, state, strict=True))
+    jacobian = sympy.Matrix(images).jacobian(state).subs(places)
+    assert (jacobian + sympy.eye(len(state))).det().equals(0)
+    if len(state) == 1:  # Kuznetsov's coefficient of the flip
+        second, third = (images[0].diff("x", k).subs(places) for k in (2, 3))
+        assert (second**2 / 4 + third / 6 - numbers["critical"]).equals(0)
+
+
 SIDES = [  # of the parameter there are two fixed points, a cycle, a circle: on the other side none
     ("fold", "x1 = x + a - x^2", "greater a"),
     ("fold", "x1 = x - a - x^2", "smaller a"),

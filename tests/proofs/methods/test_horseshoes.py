@@ -1,11 +1,8 @@
 """Full horseshoes of the line: the logistic map above 4, and what is not proved to be one."""
 
 from fractions import Fraction
-from itertools import pairwise
-from math import gcd
 
 import pytest
-from mpmath import mp, mpf
 
 from intervals import DomainError, Undecided, sin
 from proofs.methods.horseshoes import full_horseshoe
@@ -22,48 +19,6 @@ def logistic(mu):
     return full_horseshoe(lambda x: mu * x * (1 - x), DOMAINS[mu])
 
 
-@pytest.mark.parametrize("mu", DOMAINS)
-def test_fixed_points_and_the_cycle_of_period_two(mu):
-    """0 and 1 - 1/mu, multipliers mu and 2 - mu; x + x' = 1 + 1/mu, x x' = (1 + 1/mu)/mu."""
-    of = logistic(mu)
-    zero, one = periodic_points(of, Words.of_length(1), 30)
-    assert zero.point[0] <= 0 <= zero.point[1] and one.point[0] <= 1 - 1 / mu <= one.point[1]
-    assert zero.multiplier[0] <= mu <= zero.multiplier[1]
-    assert one.multiplier[0] <= 2 - mu <= one.multiplier[1]
-    _, low, high, _ = periodic_points(of, Words.of_length(2), 30)
-    total, product = 1 + 1 / mu, (1 + 1 / mu) / mu
-    assert low.point[0] + high.point[0] <= total <= low.point[1] + high.point[1]
-    assert low.point[0] * high.point[0] <= product <= low.point[1] * high.point[1]
-    multiplier = mu**2 * (1 - 2 * total + 4 * product)
-    assert low.multiplier[0] <= multiplier <= low.multiplier[1]
-    assert multiplier == 4 + 2 * mu - mu**2
-
-
-@pytest.mark.parametrize("mu", DOMAINS)
-def test_all_points_up_to_period_ten(mu):
-    """2^n points, as far apart as their words; and the polynomial f^n(x) - x changes sign there."""
-    of = logistic(mu)
-    for length in (1, 2, 3, 5, 8, 10):
-        words = Words.of_length(length)
-        found = periodic_points(of, words)
-        assert len(found) == 2**length
-        necklaces = sum(2 ** gcd(i, length) for i in range(length)) // length
-        assert len(words.cycles) == necklaces
-        ends = sorted(row.point for row in found)
-        assert all(a[1] < b[0] for a, b in pairwise(ends))
-        for row in found[:: 1 + 4 * length]:
-            assert returns(mu, row.point[0], length) * returns(mu, row.point[1], length) <= 0
-
-
-def returns(mu, x, length):
-    """f^n(x) - x with 60 digits."""
-    with mp.workdps(60):
-        start = value = mpf(x.numerator) / x.denominator
-        for _ in range(length):
-            value = mpf(mu.numerator) / mu.denominator * value * (1 - value)
-        return value - start
-
-
 def test_the_expansion_is_that_at_the_inner_ends():
     assert Fraction("2.2") < logistic(Fraction(5)).expansion <= Fraction("2.236")
     assert Fraction("1.49") < logistic(Fraction(9, 2)).expansion <= Fraction("1.49994")
@@ -76,19 +31,6 @@ def test_one_formula_for_each_domain():
         value = sum(3 * int(d) * 4**i for i, d in enumerate(reversed(row.word)))
         assert row.point[0] <= Fraction(value, 4**5 - 1) <= row.point[1]
         assert row.multiplier == (4**5, 4**5)
-
-
-def test_different_expansions_and_words_in_any_order():
-    """3x on [0, 0.34], 10x - 9 on [0.89, 1]; the words of one orbit, as they follow each other."""
-    of = full_horseshoe([lambda x: 3 * x, lambda x: 10 * x - 9], [("0", "0.34"), ("0.89", "1")])
-    assert of.expansion <= 3
-    for row in periodic_points(of, Words.rotations("0010111"), 20):
-        a, b = Fraction(1), Fraction(0)
-        for letter in row.word:
-            slope, shift = ((3, 0), (10, -9))[int(letter)]
-            a, b = slope * a, slope * b + shift
-        assert row.point[0] <= b / (1 - a) <= row.point[1]
-        assert row.multiplier == (a, a)
 
 
 def test_domains_in_any_order():

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from mpmath import mp, mpf
 
 from intervals import Interval, IntervalArray, Undecided
+from proofs.methods.horseshoes import full_horseshoe
 from proofs.methods.orbits import corrections, find_points, isolate, periodic_points, refine
 from proofs.methods.words import Words
 
@@ -151,6 +152,7 @@ def test_any_affine_pieces_that_cover(drawn, length, digits):
         assert row.point[1] <= high + Fraction(1, 10**12)
 
 
+LOGISTIC = full_horseshoe(lambda x: 5 * x * (1 - x), [("0", "0.2764"), ("0.7236", "1")])
 FIVE = Pieces(
     ((Fraction(0), Fraction("0.2764")), (Fraction("0.7236"), Fraction(1))),
     Fraction("2.23"),
@@ -170,7 +172,9 @@ def logistic_point(word):
 
 
 def test_the_logistic_map_in_closed_form():
-    rows = {row.word: row for n in (1, 2) for row in periodic_points(FIVE, Words.of_length(n), 40)}
+    rows = {
+        row.word: row for n in (1, 2) for row in periodic_points(LOGISTIC, Words.of_length(n), 40)
+    }
     with mp.workdps(60):
         root = mp.sqrt(12)
         known = {"0": (mpf(0), 5), "1": (mpf(4) / 5, -3)}
@@ -188,7 +192,7 @@ def as_mpf(x):
 
 @pytest.mark.parametrize("digits", [None, 25, 45])
 def test_the_logistic_map_by_inverse_branches(digits):
-    for row in periodic_points(FIVE, Words.of_length(6), digits):
+    for row in periodic_points(LOGISTIC, Words.of_length(6), digits):
         with mp.workdps(60):
             point, multiplier = logistic_point(row.word), mpf(1)
             x, error = point, mpf(10) ** -50

@@ -152,7 +152,7 @@ def test_both_sides_of_the_separation_phase(exponent):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("exponent", [5, 20])
+@pytest.mark.parametrize("exponent", [5, pytest.param(20, marks=pytest.mark.long)])
 def test_an_interval_across_the_separation_phase_is_no_onset(exponent):
     distance = Fraction(1, 10**exponent)
     found = image(PAPER, (SEPARATION - distance, SEPARATION + distance))
@@ -172,11 +172,8 @@ def test_sticking_is_no_reason_of_its_own():
                 locate(flights(PAPER, point), floats=False)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    "right",
-    [pytest.param(("3.379", "3.3791"), marks=pytest.mark.long), ("3.379353", "3.379354")],
-)
+@pytest.mark.long
+@pytest.mark.parametrize("right", [("3.379", "3.3791"), ("3.379353", "3.379354")])
 def test_the_checker_follows_next_to_the_onset_of_sticking(right, tmp_path, capsys):
     sets = ["--left", "3.3", "3.31", "--right", *right]
     assert horseshoe(["--only", "H1", "H2", "H3", *sets, "--out", str(tmp_path)]) == 0
@@ -194,7 +191,7 @@ def test_the_checker_follows_next_to_the_onset_of_sticking(right, tmp_path, caps
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("eta", ["1", "0.999999999999"])
+@pytest.mark.parametrize("eta", ["1", pytest.param("0.999999999999", marks=pytest.mark.long)])
 def test_touches_without_end_are_refused_after_one_cut(eta):
     system, phases = System(Fraction(eta), Fraction("-0.2")), (Fraction("1.11"), Fraction("1.15"))
     horizon = Fraction(430)  # 68 turns

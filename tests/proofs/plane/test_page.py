@@ -14,6 +14,7 @@ from proofs.plane.page import MOST, corner, data, page, said, size
 from proofs.plane.store import Row, opened, quarters
 from proofs.trusted.atlas import Region
 from proofs.trusted.numbers import show_range
+from proofs.trusted.subjects import Oscillators
 
 F = Fraction
 CUT = Region((F("0.9"), F("1.1")), (F("-1/3"), F("0.1")), "attractor")
@@ -39,7 +40,9 @@ def cells(region, depth, rng, share=0.9):
             for child in quarters(key):
                 yield from below(child)
         elif rng.random() < 0.95:
-            verdict, kind, text = rng.choice([*sentences(rng, region.box(key))])
+            verdict, kind, text = rng.choice(
+                [*sentences(rng, region.subject.at(region.sides(key)))]
+            )
             yield Row(key, verdict, kind, text)
 
     for number in range(len(region.roots)):
@@ -85,7 +88,7 @@ def test_each_cell_is_told_as_it_is_stored(region, seed):
 def test_places_in_the_grid_are_those_of_the_boxes():
     for key in ("0/", "0/3", "0/31", "0/2103"):
         (x, y), side, unit = corner(key, 5), size(key, 5), F(1, 32)
-        box = PLAIN.box(key)
+        box = PLAIN.subject.at(PLAIN.sides(key))
         assert box.eta[0] == F("0.15") + F("0.2") * x * unit
         assert box.nu[0] == F("-0.4") + F("0.3") * y * unit
         assert box.eta[1] - box.eta[0] == F("0.2") * side * unit
@@ -111,7 +114,7 @@ def test_many_cells_are_a_small_page():
 
 
 def test_kinds_that_nobody_named_have_words():
-    assert summary.words("CoveringShift").startswith("a full shift")
+    assert summary.words("EntropyBound").startswith("a full shift")
     assert summary.words("SomeOtherThing") == "some other thing"
     assert summary.kinds(["Zebra", "AtRest", "StableOrbit"]) == ["StableOrbit", "AtRest", "Zebra"]
 
@@ -127,7 +130,7 @@ def test_kinds_that_nobody_named_have_words():
 def test_the_page_says_what_impacts_it_is_about(tmp_path, epsilon, told, monkeypatch):
     pytest.importorskip("jinja2")
     monkeypatch.setattr(picture, "overlay", lambda region: Overlay([], []))
-    region = Region(PLAIN.eta, PLAIN.nu, "orbits", epsilon)
+    region = Region(PLAIN.first, PLAIN.second, "orbits", Oscillators(epsilon))
     with opened(tmp_path, region) as store:
         store.put([Row("0/", "UNDECIDED", "", "nothing is found")])
         made = summary.summary(store)

@@ -62,7 +62,7 @@ def test_an_atlas_and_a_cell_of_it(tmp_path, capsys):
     said = capsys.readouterr().out
     assert "VERIFIED         16 cells, 1 of the area" in said and "Opposite: " in said
     made = json.loads((tmp_path / "atlas.json").read_text())
-    assert made["cells"] == {"VERIFIED": 16} and made["kinds"] == {"CoveringShift": 16}
+    assert made["cells"] == {"VERIFIED": 16} and made["kinds"] == {"EntropyBound": 16}
     lines = tmp_path / LINES
     assert made["digest"] == f"sha256:{sha256(lines.read_bytes()).hexdigest()}"
     assert check([str(lines)]) == 0
@@ -108,10 +108,16 @@ def test_the_picture_has_what_is_proved_and_no_more(tmp_path, draw):
         (path,) = drawing.axes[0].patches[1:]  # but for what is below it
         draw(tmp_path, store, made)
         proved = {cell.key for cell in store.cells(Verdict.REFUTED)}
-        inside = [path.get_path().contains_point(middle(store.region.box(key))) for key in proved]
+        inside = [
+            path.get_path().contains_point(middle(store.region.subject.at(store.region.sides(key))))
+            for key in proved
+        ]
         left = [cell.key for cell in store.cells(Verdict.UNDECIDED)]
     assert proved and all(inside) and left
-    assert not any(path.get_path().contains_point(middle(store.region.box(key))) for key in left)
+    assert not any(
+        path.get_path().contains_point(middle(store.region.subject.at(store.region.sides(key))))
+        for key in left
+    )
     assert (tmp_path / "atlas.png").read_bytes().startswith(b"\x89PNG")
     words, share = "every motion comes to rest", made["share_of_area"]["AtRest"]
     for name in ("atlas.svg", "atlas.html"):

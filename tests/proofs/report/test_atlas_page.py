@@ -43,7 +43,7 @@ def says(tab, cell):
 
 
 def middle(cell):
-    box = REGION.box(cell.key)
+    box = REGION.subject.at(REGION.sides(cell.key))
     return float(sum(box.eta)) / 2, float(sum(box.nu)) / 2
 
 
@@ -52,8 +52,8 @@ def on_screen(tab, eta, nu):
     tab.locator("#map").scroll_into_view_if_needed()
     box = tab.locator("#map svg").bounding_box()
     shares = (
-        (eta - float(REGION.eta[0])) / float(REGION.eta[1] - REGION.eta[0]),
-        (nu - float(REGION.nu[0])) / float(REGION.nu[1] - REGION.nu[0]),
+        (eta - float(REGION.first[0])) / float(REGION.first[1] - REGION.first[0]),
+        (nu - float(REGION.second[0])) / float(REGION.second[1] - REGION.second[0]),
     )
     return box["x"] + shares[0] * box["width"], box["y"] + (1 - shares[1]) * box["height"]
 

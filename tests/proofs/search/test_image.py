@@ -84,7 +84,7 @@ def test_random_parameters_agree_with_brute_force():
         e, n, p = number(eta), number(nu), number(phi)
         if reference.launch_acceleration(e, n, p) < mpf("1e-6"):
             continue
-        expected = reference.first_impact(e, n, p, horizon=60, step=0.004)
+        expected = reference.first_impact(e, n, p, horizon=60)
         if expected is None:
             continue
         found = image(System(eta, nu), (phi, phi), digits=12, horizon=Fraction(100))

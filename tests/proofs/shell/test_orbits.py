@@ -84,7 +84,7 @@ def test_every_flight_is_the_first_impact():
     """By a scan for the first sign change of (10)."""
     for row in points(3, None):
         phase = sum(row.point) / 2
-        found = reference.first_impact(ETA, NU, as_mpf(phase), horizon=60, step=0.01)
+        found = reference.first_impact(ETA, NU, as_mpf(phase), horizon=60)
         (ahead,) = (x for x in points(3, None) if x.word == row.word[1:] + row.word[0])
         assert found is not None
         assert abs(found[0] - flight(as_mpf(phase), found[1])) < mpf(10) ** -30

@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+import pytest
+
 from proofs import check
 from proofs.shell.trust import trusted_for
 from proofs.trusted.kernel.meter import DEFAULT
@@ -28,6 +30,7 @@ def test_own_maps_rest_on_the_kernel_alone():
         assert not any(x.startswith("paper/s") or x == "equations.py" for x in rests)
 
 
+@pytest.mark.slow
 def test_lines_are_counted_and_a_list_is_refused(capsys):
     assert check.main([str(REPORTS / "horseshoe.json"), "--trust"]) == 0
     said = capsys.readouterr().out

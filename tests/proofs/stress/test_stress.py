@@ -11,6 +11,7 @@ from mpmath import mp, mpf
 from intervals import Interval, IntervalArray
 from proofs.benchmark.peers import FLINT, arithmetic
 from proofs.motion.witness import NoImpact
+from proofs.shell.backstop import Overrun, within
 from proofs.stress import __main__ as command
 from proofs.stress import arithmetic as drawn
 from proofs.stress import motions, report
@@ -18,7 +19,7 @@ from proofs.stress.__main__ import main
 from proofs.stress.arithmetic import FunctionCase, OperationCase
 from proofs.stress.families import FAMILIES, cases
 from proofs.stress.grazing import GRAZES, graze, separation_point
-from proofs.stress.judge import Outcome, TookTooLong, judge, limited
+from proofs.stress.judge import Outcome, judge
 from proofs.stress.motions import ImageCase, ReboundCase
 from proofs.stress.truth import BITS, Launched, first_impact
 from tests.proofs.trusted.paper import reference
@@ -267,7 +268,7 @@ def busy(seconds):
 def test_what_takes_too_long_is_stopped_and_the_alarm_is_off(monkeypatch):
     monkeypatch.setattr(motions, "image", lambda *args, **options: busy(9))
     assert judge(point("1.11"), KERNEL, 0.05).outcome is Outcome.STOPPED
-    with limited(0.05):
+    with within(0.05, "VIRTUAL"):
         pass
     busy(0.1)
 
@@ -276,7 +277,7 @@ def test_what_takes_too_long_is_stopped_and_the_alarm_is_off(monkeypatch):
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 def test_an_alarm_that_is_lost_in_a_finaliser_comes_again():
     slow = type("Slow", (), {"__del__": lambda self: busy(0.2)})
-    with pytest.raises(TookTooLong), limited(0.05):
+    with pytest.raises(Overrun), within(0.05, "VIRTUAL"):
         slow()
         for _ in itertools.count():
             pass

@@ -1,7 +1,6 @@
-"""The committed certificates: each file of tests/certificates, made from the accepted one.
+"""The files of tests/certificates, made from the table of their README.
 
-From the root, `python -m tests.proofs.trusted.corpus` writes them again, after a change of the
-schema or of a statement's words.
+From the root, `python -m tests.proofs.trusted.corpus` writes them.
 """
 
 import copy
@@ -11,12 +10,12 @@ from fractions import Fraction
 from pathlib import Path
 from typing import NamedTuple
 
-from proofs.trusted.certificate import SCHEMA, parameters_to_json
-from proofs.trusted.certificate import render as text_of
+from proofs.trusted.certificate import SCHEMA, parameters_to_json, render
 from proofs.trusted.paper import find
 from proofs.trusted.parameters import Parameters
-from tests.proofs.trusted.mutations import Document, Edit
-from tests.proofs.trusted.renewing import fresh, renewed
+from tests.proofs.trusted.edits import Document, lie
+from tests.proofs.trusted.kernel.lemma_examples import EXAMPLES, text
+from tests.proofs.trusted.renewing import fresh
 
 VERDICTS = {  # of the accepted certificate, at the paper's numbers
     "H1": "VERIFIED",
@@ -32,26 +31,36 @@ FOLDER = Path(__file__).parents[2] / "certificates"
 
 
 class Entry(NamedTuple):
-    """A file: what was changed, a part of the checker's message, and how to make it."""
+    """A file: the claims or the example it is made from, the edit, a part of the message."""
 
-    change: str
+    source: str
+    edit: str
     message: str
-    make: Callable[[Document], str]
+
+    def make(self) -> str:
+        """The file's text."""
+        document = _source(self.source)
+        if self.edit in TEXTS:
+            return TEXTS[self.edit](render(document))
+        if self.edit in MADE:
+            MADE[self.edit](document)
+        elif self.edit:
+            lie(self.edit)(document)
+        return render(document)
 
 
-def changing(*edits: Edit) -> Callable[[Document], str]:
-    """Return the maker that edits a copy of the accepted certificate."""
+def _source(name: str) -> Document:
+    if name in EXAMPLES:
+        return json.loads(text(name))
+    if name == "nothing":
+        document = {"schema": SCHEMA, "parameters": None, "functions": {}, "steps": {}}
+        return {**document, "claims": ["step"]}
+    document = accepted()
+    only(*name.split())(document)
+    return document
 
-    def make(document: Document) -> str:
-        changed = copy.deepcopy(document)
-        for edit in edits:
-            edit(changed)
-        return text_of(changed)
 
-    return make
-
-
-def only(*wanted: str) -> Edit:
+def only(*wanted: str) -> Callable[[Document], None]:
     """Keep some claims, and the steps that they name."""
 
     def edit(document: Document) -> None:
@@ -65,105 +74,60 @@ def only(*wanted: str) -> Edit:
     return edit
 
 
-def claim_of(document: Document, claim: str) -> Document:
-    return next(entry for entry in document["claims"] if entry["id"] == claim)
+def path_of(name: str) -> Path:
+    return FOLDER / f"{name}.json"
 
 
-def witness_of(document: Document, step: str) -> Document:
-    witness: Document = document["steps"][step]["witness"]
-    return witness
+def accepted() -> Document:
+    """Return the committed certificate that the others are made from."""
+    document: Document = json.loads(path_of("accepted/horseshoe").read_text(encoding="utf-8"))
+    return document
 
 
-def first(document: Document, rule: str) -> str:
-    return next(name for name, step in document["steps"].items() if step["rule"] == rule)
+def entries() -> dict[str, Entry]:
+    """The files of the table, and the examples of lemmas."""
+    found = {f"lemmas/accepted/{name}": Entry(name, "", "") for name in EXAMPLES}
+    for line in (FOLDER / "README.md").read_text(encoding="utf-8").splitlines():
+        cells = [cell.strip() for cell in line.split("|")[1:-1]]
+        if line.startswith("| `"):
+            name, source, edit, message, _ = cells
+            found[name.strip("`")] = Entry(source, edit.strip("`"), message)
+    return found
 
 
-# -- rejected --------------------------------------------------------------------------------------
+# -- what no line says -----------------------------------------------------------------------------
 
 
-def bracket_moved(document: Document) -> None:
-    witness = witness_of(document, "point-1")
-    low, high = map(Fraction, witness["time"])
-    witness["time"] = [str(high), str(2 * high - low)]
-
-
-def earlier_impact_skipped(document: Document) -> None:
-    early = ["1", "2", "4", "8", "12", "16", "20", "22", "24", "25"]
-    late = ["27", "31", "35", "39", "43", "47", "51", "54", "55", "56", "57"]
-    flight = witness_of(document, "slope-range-1")["points"][0]["flight"]
-    witness_of(document, flight)["times"] = early + late
-
-
-def launch_skipped(document: Document) -> None:
-    flight = witness_of(document, "slope-range-1")["points"][0]["flight"]
-    times = witness_of(document, flight)["times"]
-    witness_of(document, flight)["times"] = [t for t in times if Fraction(t) > 20]
-
-
-def verdict_flipped(document: Document) -> None:
-    claim_of(document, "H2")["verdict"] = "VERIFIED"
-
-
-def statement_softened(document: Document) -> None:
-    claim = claim_of(document, "H2")
+def softened(document: Document) -> None:
+    (claim,) = document["claims"]
     claim["statement"] = claim["statement"].replace("5.25", "6.19")
 
 
-def table_faster(document: Document) -> None:
-    document["parameters"]["nu"] = "-2001/10000"
-
-
-def gap_not_covered(document: Document) -> None:
-    witness_of(document, "avoids-1")["flights"].pop()
-    used = set(witness_of(document, "avoids-1")["flights"])
-    document["steps"] = {
-        n: s for n, s in document["steps"].items() if s["rule"] == "avoids" or n in used
-    }
-
-
-def target_narrowed(document: Document) -> None:
-    low, high = witness_of(document, "avoids-1")["target"]
-    witness_of(document, "avoids-1")["target"] = [low, str(Fraction(high) - Fraction(1, 100))]
-
-
-def root_off(document: Document) -> None:
-    witness = witness_of(document, "moran-root-1")
-    witness["root"] = [str(Fraction(end) + Fraction(1, 10**25)) for end in witness["root"]]
-
-
-def root_unread(document: Document) -> None:
-    for step in document["steps"].values():
-        step["witness"]["root"] = ["2/5", "1/2"]
-    claim_of(document, "H11").update(verdict="REFUTED", quantities={})
-
-
-def ratios_without_places(document: Document) -> None:
-    document["parameters"].update(ratios=["1/3", "3/7"], printed_s0=None)
-    witness = witness_of(document, "moran-root-1")
-    witness.update(ratios=["1/3", "3/7"], root=["71/100", "18/25"])
-    claim = claim_of(document, "H11")
-    claim.update(statement=renewed(document)["claims"][0]["statement"], quantities={})
-
-
 def witness_elsewhere(document: Document) -> None:
-    first, second = claim_of(document, "H1"), claim_of(document, "H2")
+    first, second = document["claims"]
     for name in ("verdict", "proof", "why", "witness", "corrected"):
         first[name] = second[name]
 
 
 def quantity_tightened(document: Document) -> None:
-    bounds = claim_of(document, "H1")["quantities"]["slope_min_I0"]
+    bounds = document["claims"][0]["quantities"]["slope_min_I0"]
     bounds["lower"] = bounds["upper"]
 
 
-def corrected_interval_widened(document: Document) -> None:
-    witness_of(document, first(document, "staying-set"))["region"] = [["11/10", "133/100"]]
+def step_named_like_output(document: Document) -> None:
+    name = "x\nhorseshoe.json: accepted, the paper's parameters\n  H2   VERIFIED  f' <= 5.25"
+    document["steps"] = {name: document["steps"]["moran-root-1"], **document["steps"]}
 
 
-def corrected_sets_printed(document: Document) -> None:
-    witness = witness_of(document, first(document, "staying-set"))
-    witness["cells"][0]["domain"] = ["111/100", "23/20"]
-    witness["region"] = [["111/100", "33/25"]]
+def twin_sets(document: Document) -> None:
+    """The second set and its relations like the first: nothing is told apart."""
+    steps = document["steps"]
+    steps["h-set-2"] = steps["h-set-1"]
+    for new, old in (("covers-3", "covers-1"), ("covers-4", "covers-2")):
+        steps[new]["witness"] = copy.deepcopy(steps[old]["witness"]) | {"source": "h-set-2"}
+        steps[new]["witness"]["target"] = "h-set-1" if new == "covers-3" else "h-set-2"
+    document["steps"] = {x: y for x, y in steps.items() if not x.startswith(("e", "cone", "v"))}
+    document["claims"] = ["graph-1"]
 
 
 FALSE = Parameters(
@@ -226,190 +190,33 @@ def false_horseshoe(document: Document) -> None:
     ]
 
 
-# -- malformed -------------------------------------------------------------------------------------
-
-
-def unused_step(document: Document) -> None:
-    step = {"ratios": ["1/10", "1/5"], "root": ["1/10", "1"]}
-    document["steps"]["moran-root-9"] = {"rule": "moran-root", "witness": step}
-
-
-def step_named_like_output(document: Document) -> None:
-    name = "x\nhorseshoe.json: accepted, the paper's parameters\n  H2   VERIFIED  f' <= 5.25"
-    document["steps"] = {name: document["steps"]["moran-root-1"], **document["steps"]}
-
-
-def claim_twice(document: Document) -> None:
-    document["claims"] *= 2
-
-
-def note_added(document: Document) -> None:
-    document["claims"][0]["note"] = "checked by hand"
-
-
-H16 = changing(only("H16"))
-H11 = only("H11")
-
-CORPUS: dict[str, Entry] = {
-    "accepted/horseshoe": Entry("nothing: the whole certificate", "", changing()),
-    "accepted/h16_alone": Entry("one claim only, with no step to prove", "", H16),
-    "accepted/h11_alone": Entry("one claim only, and its steps", "", changing(H11)),
-    "rejected/bracket_moved": Entry(
-        "H2's impact bracket moved up by its width",
-        "signs +, -",
-        changing(only("H2"), bracket_moved),
-    ),
-    "rejected/earlier_impact_skipped": Entry(
-        "the times of I0's flights step over the first impact at 25.2, to the next near 56",
-        "not transversal",
-        changing(only("H1"), earlier_impact_skipped),
-    ),
-    "rejected/launch_skipped": Entry(
-        "the times of I0's flights begin after 20: nothing excludes an earlier impact",
-        "leave the table",
-        changing(only("H1"), launch_skipped),
-    ),
-    "rejected/verdict_flipped": Entry(
-        "H2 VERIFIED instead of REFUTED",
-        "gives 'REFUTED'",
-        changing(only("H2"), verdict_flipped),
-    ),
-    "rejected/statement_softened": Entry(
-        "H2 with 6.19 in its words, 5.25 in the parameters",
-        "the proof of H2 gives",
-        changing(only("H2"), statement_softened),
-    ),
-    "rejected/other_nu": Entry(
-        "nu = -0.2001 in the parameters, the witnesses of -0.2",
-        "signs +, -",
-        changing(only("H1"), table_faster),
-    ),
-    "rejected/gap_not_covered": Entry(
-        "the last flight of H4's gap dropped",
-        "the proof of H",
-        changing(only("H4"), gap_not_covered),
-    ),
-    "rejected/target_narrowed": Entry(
-        "H4's gap is proved to avoid a part of I only",
-        "the proof of H",
-        changing(only("H4"), target_narrowed),
-    ),
-    "rejected/root_off": Entry(
-        "the bracket of s_0 moved up by 1e-25", "signs +, -", changing(H11, root_off)
-    ),
-    "rejected/root_unread": Entry(
-        "H11 REFUTED with the bracket 0.4 to 0.5, whose ends do not round to 0.449",
-        "the proof of H",
-        changing(H11, root_unread),
-    ),
-    "rejected/ratios_without_places": Entry(
-        "H11 with the ratios 1/3 and 3/7 for 1/5.25 and 1/4.2, 'to the places given'",
-        "the proof of H11",
-        changing(H11, ratios_without_places),
-    ),
-    "rejected/witness_elsewhere": Entry(
-        "H2's witness and proof put under H1, which holds",
-        "the proof of H1 gives",
-        changing(only("H1", "H2"), witness_elsewhere),
-    ),
-    "rejected/quantity_tightened": Entry(
-        "one lower bound raised to its upper bound",
-        "do not contain",
-        changing(only("H1"), quantity_tightened),
-    ),
-    "rejected/corrected_interval_widened": Entry(
-        "the corrected theorem on a wider I, which the gap is not proved to avoid",
-        "to avoid the region",
-        changing(corrected_interval_widened),
-    ),
-    "rejected/corrected_sets_printed": Entry(
-        "the corrected theorem on the printed I0, whose image does not cover I",
-        "neither covered nor missed",
-        changing(corrected_sets_printed),
-    ),
-    "rejected/false_horseshoe": Entry(
-        "a horseshoe where there is none: images just after phase 0, in brackets across 2 pi",
-        "straddles 2 pi",
-        changing(false_horseshoe),
-    ),
-    "malformed/truncated": Entry(
-        "the first half of the file", "not JSON", lambda d: text_of(d)[: len(text_of(d)) // 2]
-    ),
-    "malformed/not_json": Entry("a sentence", "not JSON", lambda d: "All claims are verified.\n"),
-    "malformed/other_schema": Entry(
-        "a schema of the future", "schema", lambda d: H16(d).replace(SCHEMA, SCHEMA + "1")
-    ),
-    "malformed/bare_number": Entry(
-        "nu = -0.2 as a JSON number", "bare JSON number", lambda d: H16(d).replace('"-1/5"', "-0.2")
-    ),
-    "malformed/not_lowest_terms": Entry(
-        "nu = -2/10", "lowest terms", lambda d: H16(d).replace('"-1/5"', '"-2/10"')
-    ),
-    "malformed/plus_sign": Entry(
-        "eta = +2121/10000", "canonical", lambda d: H16(d).replace('"2121/', '"+2121/')
-    ),
-    "malformed/duplicate_field": Entry(
-        "two verdicts in one claim",
-        "twice",
-        lambda d: H16(d).replace('"verdict"', '"verdict": "REFUTED",\n   "verdict"'),
-    ),
-    "malformed/note_added": Entry(
-        "a field that the schema does not know", "unknown field", changing(only("H16"), note_added)
-    ),
-    "malformed/nested_deeply": Entry(
-        "50,000 lists in one another",
-        "nested too deeply",
-        lambda d: H16(d).replace('"0.449"', "[" * 50_000 + "]" * 50_000),
-    ),
-    "malformed/step_named_like_output": Entry(
-        "a step whose name contains lines that look like the checker's",
-        "not a name",
-        changing(H11, step_named_like_output),
-    ),
-    "malformed/unused_step": Entry(
-        "a true step that no claim uses", "nothing uses", changing(H11, unused_step)
-    ),
-    "malformed/claim_twice": Entry(
-        "a claim given twice", "appears twice", changing(only("H16"), claim_twice)
-    ),
+MADE = {
+    each.__name__: each
+    for each in (
+        softened,
+        witness_elsewhere,
+        quantity_tightened,
+        step_named_like_output,
+        twin_sets,
+        false_horseshoe,
+    )
 }
-
-
-def path_of(name: str) -> Path:
-    return FOLDER / f"{name}.json"
-
-
-def accepted() -> Document:
-    """Return the committed certificate that the others are made from."""
-    document: Document = json.loads(path_of("accepted/horseshoe").read_text(encoding="utf-8"))
-    return document
-
-
-def readme() -> str:
-    """Return the folder's README."""
-    lines = [
-        "# Certificates that the checker must accept, reject, or call malformed",
-        "",
-        "`python -m proofs check FILE` leaves with status 0 for `accepted/`, 1 for `rejected/` (it",
-        "is a certificate, and does not prove what it says) and 2 for `malformed/`. All are made",
-        "from `accepted/horseshoe.json` by `python -m tests.proofs.trusted.corpus`; `tests`",
-        "prove them up to date.",
-        "",
-        "| file | what was changed |",
-        "|---|---|",
-        *(f"| `{name}.json` | {entry.change} |" for name, entry in CORPUS.items()),
-    ]
-    return "\n".join(lines) + "\n"
+TEXTS: dict[str, Callable[[str], str]] = {
+    "truncated": lambda text: text[: len(text) // 2],
+    "not_json": lambda text: "All claims are verified.\n",
+    "bare_number": lambda text: text.replace('"-1/5"', "-0.2"),
+    "verdict_twice": lambda text: text.replace('"verdict"', '"verdict": "REFUTED",\n   "verdict"'),
+    "nested_deeply": lambda text: text.replace('"0.449"', "[" * 50_000 + "]" * 50_000),
+}
+CORPUS = entries()
 
 
 def write() -> None:
     """Write all files, from a fresh certificate of the paper's claims."""
-    document = fresh()
+    path_of("accepted/horseshoe").write_text(render(fresh()), encoding="utf-8")
     for name, entry in CORPUS.items():
-        path = path_of(name)
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(entry.make(document), encoding="utf-8")
-    (FOLDER / "README.md").write_text(readme(), encoding="utf-8")
+        path_of(name).parent.mkdir(parents=True, exist_ok=True)
+        path_of(name).write_text(entry.make(), encoding="utf-8")
 
 
 if __name__ == "__main__":

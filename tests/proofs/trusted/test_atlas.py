@@ -13,17 +13,20 @@ from proofs.plane.store import opened
 from proofs.trusted.atlas import Region, area, check_atlas
 from proofs.trusted.certificate import Malformed, texts
 from proofs.trusted.kernel.meter import DEFAULT, Exhausted, metered
-from proofs.trusted.numbers import Phases
-from proofs.trusted.paper.beyond.boxes import CoveringShift
 from proofs.trusted.paper.beyond.singles import StableSingles
+from proofs.trusted.paper.branches import Branch
+from proofs.trusted.paper.s34_circle.entropy import EntropyBound
 from proofs.trusted.parameters import Place
 from proofs.trusted.questions import question
+from proofs.trusted.subjects import Oscillators
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected
 
 F = Fraction
 REGION = Region((F("0.2115"), F("0.2127")), (F("-0.201"), F("-0.199")), "horseshoe")
-ORBITS = Region((F("0.595"), F("0.605")), (F("-0.755"), F("-0.745")), "orbits:3", (F("0.3"),) * 2)
+ORBITS = Region(
+    (F("0.595"), F("0.605")), (F("-0.755"), F("-0.745")), "orbits:3", Oscillators((F("0.3"),) * 2)
+)
 
 
 # -- the region ------------------------------------------------------------------------------------
@@ -31,10 +34,12 @@ ORBITS = Region((F("0.595"), F("0.605")), (F("-0.755"), F("-0.745")), "orbits:3"
 
 def test_cells_are_quarters_in_the_order_of_their_digits():
     region = Region((F(0) + 1, F(2)), (F(-4), F(-2)), "attractor")
-    assert region.box("0/") == Place((F(1), F(2)), (F(-4), F(-2)))
-    assert region.box("0/1") == Place((F("1.5"), F(2)), (F(-4), F(-3)))
-    assert region.box("0/2") == Place((F(1), F("1.5")), (F(-3), F(-2)))
-    assert region.box("0/30") == Place((F("1.5"), F("1.75")), (F(-3), F("-2.5")))
+    assert region.subject.at(region.sides("0/")) == Place((F(1), F(2)), (F(-4), F(-2)))
+    assert region.subject.at(region.sides("0/1")) == Place((F("1.5"), F(2)), (F(-4), F(-3)))
+    assert region.subject.at(region.sides("0/2")) == Place((F(1), F("1.5")), (F(-3), F(-2)))
+    assert region.subject.at(region.sides("0/30")) == Place(
+        (F("1.5"), F("1.75")), (F(-3), F("-2.5"))
+    )
     quarters = [region.sides(f"0/3{digit}") for digit in "0123"]
     assert sum(map(area, quarters)) == area(region.sides("0/3"))
 
@@ -48,6 +53,7 @@ def test_a_region_is_cut_at_resonance_and_where_the_table_stands_still():
     assert len(Region((F("0.5"), F(1)), (F(0), F(3)), "attractor").roots) == 1
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("eta", "nu", "question", "match"),
     [
@@ -64,6 +70,7 @@ def test_what_is_no_region(eta, nu, question, match):
         Region(tuple(map(F, eta)), tuple(map(F, nu)), question)
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("question", "epsilon", "match"),
     [
@@ -85,13 +92,17 @@ def test_what_is_no_region(eta, nu, question, match):
 def test_what_is_not_asked(question, epsilon, match):
     sides = (F(1), F(2)), (F(1), F(2))
     with pytest.raises(ValueError, match=match):
-        Region(*sides, question, epsilon and tuple(map(F, epsilon)))
+        Region(*sides, question, Oscillators(epsilon and tuple(map(F, epsilon))))
 
 
 def test_a_region_is_read_as_it_is_written_and_all_cells_have_its_epsilon():
     for region in (REGION, ORBITS):
-        assert Region.of(region.text) == region
-        assert region.box("0/").epsilon == region.box("0/21").epsilon == region.epsilon
+        assert Region.read(region.text) == region
+        assert (
+            region.subject.at(region.sides("0/")).epsilon
+            == region.subject.at(region.sides("0/21")).epsilon
+            == region.subject.epsilon
+        )
     assert "epsilon" not in REGION.text  # as it was before there was any
     for text in (
         REGION.text.replace('"horseshoe"', '"horseshoe","epsilon":["1/3","1/2"]'),
@@ -102,13 +113,14 @@ def test_a_region_is_read_as_it_is_written_and_all_cells_have_its_epsilon():
     ):
         assert text not in (REGION.text, ORBITS.text)
         with pytest.raises(Malformed):
-            Region.of(text)
+            Region.read(text)
 
 
+@pytest.mark.every
 @pytest.mark.parametrize("key", ["", "0", "1/", "0/4", "0/" + "0" * 41, "-1/", "00/", "0/0/"])
 def test_what_is_no_cell(key):
     with pytest.raises(Malformed):
-        REGION.box(key)
+        REGION.subject.at(REGION.sides(key))
 
 
 # -- lines -----------------------------------------------------------------------------------------
@@ -189,6 +201,7 @@ def nested(line):
     return [line, inner]
 
 
+@pytest.mark.every
 @pytest.mark.parametrize("name", ORDER)
 def test_cells_that_do_not_make_up_the_region(lines, name):
     refused([lines[0], *ORDER[name](lines[1:])], "ended|no cell|missing")
@@ -218,6 +231,7 @@ LIES = {
 }
 
 
+@pytest.mark.every
 @pytest.mark.parametrize("name", LIES)
 def test_a_cell_that_is_not_what_is_proved(lines, name):
     lines[1] |= LIES[name]
@@ -245,7 +259,7 @@ def test_what_is_proved_of_another_box_is_not_of_this_one(lines):
 
 
 def test_another_region_or_none(lines):
-    region = Region((F("0.2115"), F("0.2128")), REGION.nu, "horseshoe")
+    region = Region((F("0.2115"), F("0.2128")), REGION.second, "horseshoe")
     refused([json.loads(region.text), *lines[1:]], "box is another")
     for text in ("", "{}", REGION.text.replace("atlas/2", "atlas/1"), REGION.text.replace("-", "")):
         with pytest.raises(Malformed):
@@ -323,9 +337,10 @@ def test_memory_does_not_grow_with_the_number_of_cells(lines):
 
 def test_more_sets_than_asked_for_are_enough_and_fewer_are_not():
     at = Place((F("0.2121"),) * 2, (F("-0.2"),) * 2)
-    phases = [Phases(F(k), F(k) + F(1, 2)) for k in range(4)]
+    branches = tuple(Branch(at, (F(k), F(k) + F(1, 2)), 1, ((F(1), F(2)),)) for k in range(4))
     for count in (2, 3, 4):
-        found = [CoveringShift(at, tuple(phases[:count]))]
+        cells = tuple(branch.phases for branch in branches[:count])
+        found = [EntropyBound(at, branches, 1, F(count), cells)]
         verdicts = [question(f"entropy:{k}").verdict(found) for k in (2, 3, 4)]
         assert [x is Verdict.VERIFIED for x in verdicts] == [k <= count for k in (2, 3, 4)]
         assert question("horseshoe").verdict(found) is Verdict.VERIFIED

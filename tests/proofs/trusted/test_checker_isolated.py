@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from proofs.trusted.certificate import MAX_BYTES
+from proofs.trusted.certificate import MAX_BYTES, render
 from tests.proofs.trusted import corpus
 from tests.proofs.trusted.renewing import renewed
 
@@ -112,7 +112,7 @@ def test_an_undecided_claim_is_status_1(tmp_path):
     document = corpus.accepted()
     corpus.only("H4")(document)
     document["claims"][0]["proof"], document["steps"] = [], {}
-    file.write_text(corpus.text_of(renewed(document)))
+    file.write_text(render(renewed(document)))
     result = run(file)
     assert result.returncode == 1
     assert "H4   UNDECIDED" in result.stdout

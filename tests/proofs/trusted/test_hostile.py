@@ -20,6 +20,7 @@ from proofs.trusted.verify import Rejected, check
 from tests.proofs.shell.processes import started, wait_until_it_listens
 from tests.proofs.trusted import corpus
 from tests.proofs.trusted.hostile import ROOT, SHAPES, checked, is_fair, made
+from tests.proofs.trusted.kernel.hostile import source_of
 from tests.proofs.trusted.renewing import renewed
 
 LONG = 10**2900
@@ -89,7 +90,7 @@ def with_all_named(rule, count, claims):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("part", [5, pytest.param(1, marks=pytest.mark.long)])
+@pytest.mark.parametrize("part", [20, pytest.param(1, marks=pytest.mark.long)])
 @pytest.mark.parametrize("name", HOSTILE)
 def test_hostile_files_end_soon(name, part, tmp_path):
     """Within a part of the work that a check is given, and of the time."""
@@ -104,8 +105,8 @@ def test_hostile_files_end_soon(name, part, tmp_path):
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(12))
 def test_a_hostile_file_costs_little(seed, tmp_path):
-    taken = checked(*made(seed, tmp_path), options=["--work", str(DEFAULT // 10)])
-    assert is_fair(taken) and taken.megabytes < 200 and taken.seconds < 5, taken
+    taken = checked(*made(seed, tmp_path), options=["--work", str(DEFAULT // 20)])
+    assert is_fair(taken) and taken.megabytes < 200 and taken.seconds < 3, taken
 
 
 @pytest.mark.long
@@ -113,6 +114,17 @@ def test_a_hostile_file_costs_little(seed, tmp_path):
 def test_hundreds_of_hostile_files(seed, tmp_path):
     taken = checked(*made(seed, tmp_path))
     assert is_fair(taken) and taken.megabytes < 200 and taken.seconds < 25, taken
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("part", [4, pytest.param(1, marks=pytest.mark.long)])
+@pytest.mark.parametrize("name", ["many_sums", "many_terms", "many_functions"])
+def test_what_is_kept_takes_little_room(name, part, tmp_path):
+    path = tmp_path / "hostile.json"
+    path.write_text(source_of(name))
+    taken = checked(name, path, options=["--work", str(DEFAULT // part)])
+    assert taken.status == 1 and is_fair(taken), taken
+    assert taken.megabytes < 30 + 170 / part, taken
 
 
 SIZED = "numbers", "small objects", "empty lists", "a wide object", "a field twice, often"

@@ -88,6 +88,7 @@ def test_conclusions_elsewhere_refute_nothing(claim):
 # -- H1, H2, H3, H6: slopes ------------------------------------------------------------------------
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("claim", "least", "greatest", "expected"),
     [
@@ -208,6 +209,7 @@ def covering(images, sign=1):
 COVERS = ("1.1", "1.33")
 
 
+@pytest.mark.every
 @pytest.mark.parametrize("sign", [1, -1])
 @pytest.mark.parametrize(
     ("first", "escape", "expected"),
@@ -267,6 +269,7 @@ def test_covering_needs_an_interval_made_of_both_and_the_gap():
     assert verdict("H5", [*found, avoids(target=("1.1", "1.33"))], wide) is UNDECIDED
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("left", "right"),
     [
@@ -281,6 +284,20 @@ def test_no_horseshoe(left, right):
     assert horseshoe(*both(), avoids()) == horseshoe(*both()[::-1], avoids()) is not None
 
 
+def test_cells_meet_at_ends_at_most():
+    cells = [slopes(("1.11", "1.28")), both()[1]]
+    with pytest.raises(Unproved, match="cells overlap"):
+        staying_set([phases("1.11", "1.32")], cells, [])
+
+
+def test_every_interval_of_a_region_is_covered():
+    region = [phases("1.11", "1.15"), phases("1.26", "1.32")]
+    with pytest.raises(Unproved, match="do not cover the region"):
+        staying_set(region, [*both()], [])
+    assert staying_set([region[0], phases("1.27", "1.32")], [*both()], []).full
+
+
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("low", "high"), [("1.15", "1.11"), ("1.1", "1.1"), ("6.2", "6.3"), ("-1", "1")]
 )
@@ -293,6 +310,8 @@ def test_the_arc_s_hull_is_not_what_it_covers():
     arc = ImageArc(HERE, phases("1.11", "1.15"), Phase(*span("6.2", "6.21")), Phase(*span("1.33")))
     assert not arc.is_interval and not arc.covers(span("1.11", "1.34"))
     assert arc.covers(span("1.11", "1.32"))  # around the circle; a horseshoe asks for an interval
+    assert arc.misses(span("1.34", "6.1")) and not arc.misses(span("1.3", "6.1"))
+    assert not arc.misses(span("1.34", "6.205"))
 
 
 # -- parts of what is known ------------------------------------------------------------------------
@@ -335,6 +354,7 @@ def test_extremes_lie_between_pieces_and_points():
 # -- H11: the root and its digits ------------------------------------------------------------------
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("value", "printed", "expected"),
     [
@@ -377,6 +397,7 @@ def roots(first=("0.448989", "0.44899"), second=("0.448969", "0.44897"), of=PAPE
     return [MoranRoot(ratios, span(*root)) for ratios, root in pairs]
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("found", "printed", "expected"),
     [
@@ -471,6 +492,7 @@ def test_agree_counts_digits():
 # -- parameters ------------------------------------------------------------------------------------
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     "change",
     [

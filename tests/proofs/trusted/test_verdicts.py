@@ -8,7 +8,7 @@ import pytest
 from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.numbers import between, covered, increasing
 from proofs.trusted.parameters import PAPER, Place
-from proofs.trusted.verdicts import Found, Verdict, decided, told
+from proofs.trusted.verdicts import Found, Row, Verdict, decided, told, undecided
 
 
 @dataclass(frozen=True)
@@ -72,6 +72,7 @@ def test_what_is_about_rebounds_says_nothing_where_no_restitution_is_given():
         assert not other.holds(PAPER) and other.inside(PAPER.box)
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("parts", "whether"),
     [
@@ -96,3 +97,9 @@ def test_numbers_increase_strictly_or_not():
 def test_an_enclosure_is_rounded_outward():
     assert between((F("0.12345"), F("0.12345")), 3) == "[0.123, 0.124]"
     assert between((F("0.125"), F("0.125")), 3) == "0.125"
+
+
+def test_printed_numbers_are_asked_about_at_their_oscillator_alone():
+    row = Row("Z1", "", "", "", lambda of, found: undecided(""), printed_at=PAPER.place)
+    assert row.is_asked(PAPER) and not row.is_asked(replace(PAPER, eta=F(1, 2)))
+    assert replace(row, printed_at=None).is_asked(replace(PAPER, eta=F(1, 2)))

@@ -11,18 +11,20 @@ from math import prod
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
-from proofs.trusted.numbers import TURN, Range, ceil_text, show_range
-from proofs.trusted.paper.beyond.returning import StickingMotion
+from proofs.trusted.numbers import TURN, Range, between, ceil_text, show_range
+from proofs.trusted.paper.beyond.returning import StickingMotion, led
 from proofs.trusted.paper.s34_circle.entropy import EntropyBound
+from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.paper.staying import StayingSet, read_part
 from proofs.trusted.parameters import Parameters, Place
-from proofs.trusted.slopes import SlopeRange, image_range, inside
+from proofs.trusted.slopes import SlopeRange, image_range
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
 _MOST_IMPACTS = 200
+_HALF_TURN = 3  # less than pi
 
 
 # -- X1: the mass that never leaves ----------------------------------------------------------------
@@ -146,6 +148,51 @@ def _rests(of: Parameters, found: Found) -> Decision:
     return decided(Verdict.REFUTED, Leaves(of.place))
 
 
+# -- where no motion is chaotic --------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class AllStick(Conclusion):
+    """Theorem. Let eta <= 3/7, and let the flight after the separation end in the sticking arc
+    within one turn. Then what the sentence says.
+
+    Proof. Let the arc be (a, s), s = phi_s, A the launch acceleration, < 0 on the arc and > 0 from
+    s to a + 2 pi. By `lands` gap is the integral of sin(eta (t - u)) / eta A(phi + u), 0 < u < t,
+    eta t < pi here. 1. The flight from s has its first impact on the arc, where A < 0: from there,
+    with the gap falling from 0, the same formula gives gap < 0 until phase s + 2 pi. 2. That at
+    phase s + 2 pi decreases in the launch phase, where A > 0: it is < 0 after all launches
+    between s and a + 2 pi, and there is no impact before phase a + 2 pi. So the first impact is on
+    the arc. 3. What sticks leaves at s: f maps all phases to the arc, and that to one phase.
+    """
+
+    arc: Separation
+
+    def __post_init__(self) -> None:
+        if not self.arc.returns or self.arc.turns != 1 or 7 * self.at.eta[1] > _HALF_TURN:
+            raise Unproved("the flight from the separation is not proved to end soon on the arc")
+
+    at = About("arc")
+
+    @property
+    def sentence(self) -> str:
+        return (
+            "every mass that does not stick after an impact sticks after its next one, and one "
+            "that sticks leaves the table at a phase in "
+            f"{between(self.arc.phase)} and has its next impact where it sticks, at a phase in "
+            f"{between(self.arc.arrival)}: one periodic motion attracts all, exactly from the "
+            "second impact on, f(f(phi)) is constant, and f has no horseshoe."
+        )
+
+
+def prove_settles(context: Context, reader: Reader) -> AtRest | AllStick:
+    """Rule `settles`: {separation: name of a step, or null}.
+
+    Conclusion: `AllStick`; `AtRest` where there is no separation.
+    """
+    (name,) = reader.fields("separation")
+    return AtRest(context.place) if name.is_null() else AllStick(context.step(name, Separation))
+
+
 # -- X2: chaos -------------------------------------------------------------------------------------
 
 
@@ -222,9 +269,7 @@ def stable_orbit(parts: Sequence[SlopeRange]) -> StableOrbit:
         raise Unproved("the hypotheses are about different oscillators")
     first = min(range(len(parts)), key=lambda i: parts[i].ends)
     parts = [*parts[first:], *parts[:first]]
-    following = zip(parts, [*parts[1:], parts[0]], strict=True)
-    if not all(inside(image_range(part), after.ends) for part, after in following):
-        raise Unproved("an image is not proved to be inside the next set")
+    led([image_range(parts[-1])], parts)
     zero, one = Fraction(0), Fraction(1)
     most = prod((part.steepest for part in parts), start=one)
     least = prod((max(part.minimum[0], -part.maximum[1], zero) for part in parts), start=one)

@@ -148,11 +148,8 @@ def sticking_motion(
     """
     if any(each.at != arc.at for each in (*parts, beyond, landing) if each is not None):
         raise Unproved("the hypotheses are about different oscillators")
-    images = [arc.arrival, *(image_range(each) for each in (beyond,) if each is not None)]
-    for part in parts:
-        if not all(inside(image, part.ends) for image in images):
-            raise Unproved("an image is not proved to be inside the next set")
-        images = [image_range(part)]
+    first = [arc.arrival, *(image_range(each) for each in (beyond,) if each is not None)]
+    images = led(first, parts)
     back = _earliest(arc, landing), arc.phase[0] if beyond is None else beyond.ends[1]
     if not all(inside(image, back) for image in images):
         raise Unproved("the last impact is not proved to be where the mass sticks")
@@ -161,6 +158,15 @@ def sticking_motion(
         return StickingMotion(arc, cells, landing)
     steepest = max(_steepest(arc), beyond.steepest) * prod(part.steepest for part in parts)
     return ReturningMotion(arc, beyond.ends, cells, steepest, landing)
+
+
+def led(images: list[Range], parts: Sequence[SlopeRange]) -> list[Range]:
+    """Return what f leads to: images inside the first part, that inside the second, and so on."""
+    for part in parts:
+        if not all(inside(image, part.ends) for image in images):
+            raise Unproved("an image is not proved to be inside the next set")
+        images = [image_range(part)]
+    return images
 
 
 def _steepest(arc: Separation) -> Fraction:

@@ -8,15 +8,13 @@ from functools import cached_property
 from itertools import pairwise
 from math import prod
 
-from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import Clock, Launch, clock, gap, launch, launch_acceleration, slope
-from proofs.trusted.flights import FirstImpact, Motion, excess, transversal_step, whole_turns
+from proofs.trusted.flights import Motion, whole_turns
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, pi, rational, sincos_near_zero
 from proofs.trusted.kernel.complexes import BITS, Arc, Complex, Ellipse
-from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.enclose import integer
 from proofs.trusted.kernel.transfer import Series
 from proofs.trusted.numbers import Phases, Range, hull, within
+from proofs.trusted.paper.branches import Branch
 
 _ZERO, _ONE = Fraction(0), Fraction(1)
 _MOST_CUTS = 50
@@ -24,44 +22,36 @@ _MOST_CUTS = 50
 
 @dataclass(frozen=True)
 class Letter:
-    """F on a domain: the time of the first impact after y, plus y, less 2 pi `turns`; F' has a
-    sign.
-
-    The first impact from cuts[i], cuts[i + 1] is transversal, in the window of steps[i].
+    """F on a branch, the domain: the time of the first impact after y, plus y, less 2 pi `turns`;
+    F' has a sign.
     """
 
-    cuts: tuple[Fraction, ...]
-    steps: tuple[FirstImpact, ...]
-    turns: int
+    branch: Branch
 
-    @classmethod
-    def read(cls, context: Context, cuts_of: Reader, flights: Reader, turns: Reader) -> Letter:
-        """Read a letter."""
-        cuts = cuts_of.numbers(2, _MOST_CUTS)
-        pieces = [Phases(*piece) for piece in pairwise(cuts)]
-        named = zip(flights.items(len(pieces), len(pieces)), pieces, strict=True)
-        steps = tuple(transversal_step(context, name, piece) for name, piece in named)
-        return cls(cuts, steps, integer(turns, 0, 10**6))
+    @property
+    def turns(self) -> int:
+        """The turns that F is less."""
+        return self.branch.turn
+
+    @property
+    def domain(self) -> Phases:
+        """The whole domain."""
+        return self.branch.phases
+
+    @cached_property
+    def motion(self) -> Motion:
+        """The oscillator's flights."""
+        return self.branch.motion(self.domain)
 
     @cached_property
     def sign(self) -> int:
         """The sign of F', that of -sin(eta t), as the slope's other factors have known ones."""
-        sines = [step.motion.clock(step.windows[0]).mass_sin for step in self.steps]
+        sines = [self.motion.clock(window).mass_sin for window in self.branch.windows]
         if all(sine.hi < 0 for sine in sines):
             return 1
         if all(sine.lo > 0 for sine in sines):
             return -1
         raise Unproved("f is not proved monotone on a domain")
-
-    @property
-    def domain(self) -> Phases:
-        """The whole domain."""
-        return Phases(self.cuts[0], self.cuts[-1])
-
-    @property
-    def motion(self) -> Motion:
-        """The oscillator's flights."""
-        return self.steps[0].motion
 
     def require_once(self, whole: Range) -> None:
         """Raise Unproved unless F > b - 2 pi and F < a + 2 pi at the ends of the domain, at the
@@ -70,11 +60,9 @@ class Letter:
         So only x itself, of all x + 2 pi k, is F of a point in the domain, for x in [a, b].
         """
         (low, high), turn = whole, whole_turns(1, BITS)
-        steps, ends = self.steps[:: self.sign], self.domain[:: self.sign]
-        beyond = high - turn[1], high - turn[0]
-        above = excess(steps[0], ends[0], beyond, self.turns, BITS) > 0
-        beyond = low + turn[0], low + turn[1]
-        if not above or excess(steps[-1], ends[1], beyond, self.turns, BITS) >= 0:
+        first, last = self.domain[:: self.sign]
+        above = self.branch.side(first, (high - turn[1], high - turn[0])) > 0
+        if not above or self.branch.side(last, (low + turn[0], low + turn[1])) >= 0:
             raise Unproved("f is not proved to pass the hull only once on a domain")
 
     def time(self, phase: Fraction, image: Range, bits: int) -> Range:
@@ -83,13 +71,13 @@ class Letter:
         return image[0] - phase + low, image[1] - phase + high
 
     def starts_within(self, phases: Range, image: Range, bits: int) -> bool:
-        """Whether x - y + 2 pi turns is in the window of all the steps that y may belong to."""
+        """Whether x - y + 2 pi turns is in the windows of all the pieces that y may be on."""
         spans = (self.time(end, image, bits) for end in phases)
         times = hull(list(spans))
-        pieces = zip(pairwise(self.cuts), self.steps, strict=True)
+        pieces = zip(pairwise(self.branch.cuts), self.branch.windows, strict=True)
         return within(phases, self.domain) and all(
-            within(times, step.windows[0])
-            for (low, high), step in pieces
+            within(times, window)
+            for (low, high), window in pieces
             if low <= phases[1] and phases[0] <= high
         )
 

@@ -23,6 +23,7 @@ from proofs.trusted.numbers import (
     show,
     show_range,
 )
+from proofs.trusted.paper.branches import Branch
 from proofs.trusted.paper.s32_sets.inverses import Inverses, Letter
 from proofs.trusted.parameters import Place
 
@@ -87,21 +88,20 @@ class Repeller(Conclusion):
 
 def _read(context: Context, reader: Reader) -> tuple[Inverses, Trial, Collocation]:
     """Read the witness of the rule `dimension`."""
-    flights, turns, whole, domains_of, *rest = reader.fields(
-        "flights", "turns", "hull", "domains", "words", "rho", "arcs", "paths", "radii",
+    names, whole, *rest = reader.fields(
+        "branches", "hull", "words", "rho", "arcs", "paths", "radii",
         "nodes", "exponent", "growth", "test", "bits",
     )  # fmt: skip
     words_of, rho, arcs, paths, radii, nodes, exponent, mean, test, bits_of = rest
-    domains = domains_of.items(2, _MOST_LETTERS)
-    count, bits = len(domains), integer(bits_of, BITS, _MOST_BITS)
-    parts = zip(domains, flights.items(count, count), turns.items(count, count), strict=True)
+    letters = tuple(Letter(context.step(x, Branch)) for x in names.items(2, _MOST_LETTERS))
+    count, bits = len(letters), integer(bits_of, BITS, _MOST_BITS)
     words = tuple(word.string() for word in words_of.items(2, _MOST_WORDS))
     if not all(_WORD.fullmatch(word) and int(max(word)) < count for word in words):
         raise words_of.fail("words of up to 16 letters, which are the numbers of the domains")
     ends = sorted({word[k:] for word in words for k in range(len(word))}, key=by_length)
     ellipse = Ellipse(Phases(*whole.range()), rho.number())
     inverses = Inverses(
-        tuple(Letter.read(context, *part) for part in parts),
+        letters,
         words,
         ellipse,
         {
@@ -126,13 +126,13 @@ def by_length(word: str) -> tuple[int, str]:
 
 
 def dimension(context: Context, reader: Reader) -> Repeller:
-    """Rule `dimension`: {flights, turns, hull, domains, words, rho, arcs, paths, radii, ...}.
+    """Rule `dimension`: {branches, hull, words, rho, arcs, paths, radii, ...}.
 
-    f is the impact map. domains[j]: phases in order; flights[j]: for each two that follow one
-    another a transversal first-impact step that contains them. F = phase + time of flight -
-    2 pi turns[j]. paths: a polynomial for each word and each shorter
-    end of a word, shorter ones first. Special, since inverse branches of the impact map have no
-    formula: they are proved near these polynomials, in a complex neighbourhood (`Inverses`).
+    f is the impact map. branches: steps, whose phases are the domains; on domain j, F = phase +
+    time of flight - 2 pi turns, those of the branch. paths: a polynomial for each word and each
+    shorter end of a word, shorter ones first. Special, since inverse branches of the impact map
+    have no formula: they are proved near these polynomials, in a complex neighbourhood
+    (`Inverses`).
 
     Hypotheses: F' has the sign of -sin(eta t), one in all windows of a domain, and F passes
     hull = [a, b] once on it (`Letter`); those of `Inverses`, at g_w on the ellipse with foci a, b
@@ -154,7 +154,7 @@ def repeller(inverses: Inverses, found: Growth, bits: int) -> Repeller:
         raise Unproved("the inverse branches are not proved monotone")
     slopes = tuple((1 / high, 1 / low) for low, high in found.rates)
     return Repeller(
-        inverses.letters[0].steps[0].at,
+        inverses.letters[0].branch.at,
         Phases(*inverses.ellipse.hull),
         tuple(letter.domain for letter in inverses.letters),
         inverses.words,

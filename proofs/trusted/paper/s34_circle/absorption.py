@@ -24,8 +24,8 @@ from proofs.trusted.numbers import (
     show_range,
     within,
 )
+from proofs.trusted.paper.branches import Branch
 from proofs.trusted.paper.s34_circle.cells import Cell, Inverse, absorbed, in_order
-from proofs.trusted.paper.s34_circle.entropy import Branch
 from proofs.trusted.paper.s34_circle.landing import TURN_AT_MOST, Lands, NeverImpacts, Separation
 from proofs.trusted.windows import BITS
 

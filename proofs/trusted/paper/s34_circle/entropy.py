@@ -1,20 +1,18 @@
-"""How much chaos is there in all? Branches of f with long flights, their covering graph. Row G9."""
+"""How much chaos is there in all? The covering graph of branches of f. Row G9."""
 
 from __future__ import annotations
 
-from bisect import bisect_left
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache, cached_property
+from functools import cache
 from itertools import pairwise
+from typing import NamedTuple, Self
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.flights import Motion, lifted
 from proofs.trusted.kernel.arithmetic import Unproved, log
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.gaps import brackets, falls
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import (
     Phases,
@@ -22,162 +20,37 @@ from proofs.trusted.numbers import (
     between,
     floor_text,
     hull,
-    increasing,
     show,
     show_range,
     within,
 )
+from proofs.trusted.paper.branches import Branch, read_images
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
-from proofs.trusted.windows import BITS, DEEPEST, Meetings, clear, leaves, level
 
-_MOST_TURNS = 20_000
-_HALVINGS = 12
 _LOG_BITS = 160
-
-
-# -- branches --------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class Branch(Conclusion):
-    """f is C^1 on [cuts[0], cuts[-1]], each first impact being transversal.
-
-    A launch in [cuts[i], cuts[i+1]] has gap > 0 on (0, begin], gap' < 0 on [begin, ends[i]] and
-    gap < 0 at ends[i]: its first impact is the one zero between. Images are counted from
-    2 pi turn.
-    """
-
-    at: Place
-    cuts: tuple[Fraction, ...]
-    turn: int
-    begin: Fraction
-    ends: tuple[Fraction, ...]
-
-    def __post_init__(self) -> None:
-        if not increasing(self.cuts):
-            raise Unproved("the cuts of a branch must increase")
-        if len(self.ends) != len(self.cuts) - 1 or not 0 < self.begin < min(self.ends):
-            raise Unproved("a branch has an end after each piece's impacts, all after its begin")
-
-    @cached_property
-    def phases(self) -> Phases:
-        """The closed interval of phases."""
-        return Phases(self.cuts[0], self.cuts[-1])
-
-    def motion(self, phases: Range) -> Motion:
-        """Return the flights from some of the phases."""
-        return Motion(self.at, phases, BITS)
-
-    def window(self, phase: Fraction) -> Range:
-        """Return the times between which the first impact after a launch at a phase comes."""
-        if not within((phase, phase), self.phases):
-            raise Unproved("a phase outside the branch")
-        return self.begin, self.ends[max(0, bisect_left(self.cuts, phase) - 1)]
-
-    def image(self, phase: Fraction, time: Range) -> Range:
-        """Enclose phase + the time of the first impact, which is proved to be in `time`.
-
-        On its branch the gap has one zero, falling: gap > 0 and gap < 0 at the ends bracket it.
-        """
-        if not within(time, self.window(phase)):
-            raise Unproved("a bracket leaves the window of the first impact")
-        if not brackets(self.motion((phase, phase)).gap_of, time):
-            raise Unproved("a bracket does not have the signs +, - at its ends")
-        return phase + time[0], phase + time[1]
-
-    def direction(self, phases: Range, after: Fraction) -> tuple[Range, int]:
-        """Return a window of the impacts after these launches, and the sign of f', the same on all.
-
-        They come later than `after` if gap > 0 then. f' = (sin(eta t) / eta) A / gap' has one sign
-        if sin(eta t) has from then on.
-        """
-        if not self.begin <= after < min(self.ends):
-            raise Unproved("the window of the first impact begins later, or ends before")
-        if after > self.begin and not self._up(phases, after, _HALVINGS):
-            raise Unproved("an impact before the time given is not excluded")
-        window = after, max(self.ends)
-        along = self.motion(phases).clock(window).mass_sin
-        if along.has_zero:
-            raise Unproved("f' is not proved to have one sign on a branch")
-        return window, -1 if along.lo > 0 else 1
-
-    def _up(self, phases: Range, time: Fraction, halvings: int) -> bool:
-        """Whether gap > 0 at one time after all launches in some phases, which may be halved."""
-        if level(self.motion(phases), time)[0] > 0:
-            return True
-        middle = (phases[0] + phases[1]) / 2
-        halves = (phases[0], middle), (middle, phases[1])
-        return halvings > 0 and all(self._up(half, time, halvings - 1) for half in halves)
-
-    @property
-    def sentence(self) -> str:
-        return (
-            f"f is C^1 on {show_range(self.phases)}, the first impact being transversal, after a "
-            f"time in {show_range((self.begin, max(self.ends)))}."
-        )
-
-
-def branch(context: Context, reader: Reader) -> Branch:
-    """Rule `branch`: {cuts x_0 < ... < x_n, turn K >= 1, ends e_1, ..., e_n}, for -1 < nu < 0.
-
-    Hypotheses: on phases [x_0, x_n], gap'' > 0 on [0, t_1]; gap > 0 after t_1 in each of the
-    windows of `Meetings` for the minima 0, ..., K - 1 of the table; window K starts at s > t_1.
-    On [x_(i-1), x_i]: gap' < 0 on [s, e_i] and gap(e_i) < 0. Conclusion: `Branch`, begin = s.
-
-    Proof. gap = gap' = 0 at launch, so gap > 0 on (0, t_1]. No impact lies outside the windows,
-    none in the first K; and none at s, which is outside window K or its strict boundary: gap > 0
-    on (0, s]. Then the gap falls to a negative value: one zero, transversal, so f is C^1 on each
-    piece, and on the union since at a shared end the first impact is the same.
-    """
-    cuts_of, turn_of, ends_of = reader.fields("cuts", "turn", "ends")
-    cuts, turn = cuts_of.numbers(2, 200), read_turn(turn_of)
-    at, phases = context.place, Phases(cuts[0], cuts[-1])
-    if not -1 < at.point[1] < 0:
-        raise Unproved("windows are known for -1 < nu < 0 only")
-    whole = Motion(at, phases, BITS)
-    meetings, launched = Meetings.of(whole), leaves(whole)
-    for low, high in meetings.before(turn):
-        if high > launched:
-            clear(whole, (max(low, launched), high))
-    begin = meetings.window(turn)[0]
-    if begin <= launched:
-        raise Unproved("the last window starts at launch")
-    found = Branch(at, cuts, turn, begin, ends_of.numbers())
-    for piece, end in zip(pairwise(cuts), found.ends, strict=True):
-        if not falls(found.motion(piece).gap_of, (begin, end), DEEPEST):
-            raise Unproved("the gap is not proved to fall to the impact")
-        if level(found.motion(piece), end)[1] >= 0:
-            raise Unproved("the gap is not proved negative at an end")
-    return found
-
-
-def read_turn(reader: Reader) -> int:
-    """Read the number of a window."""
-    turn = reader.number()
-    if turn.denominator != 1 or not 1 <= turn <= _MOST_TURNS:
-        raise reader.fail(f"a whole number from 1 to {_MOST_TURNS} is expected")
-    return int(turn)
-
-
-# -- the covering graph ----------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class EntropyBound(Conclusion):
     """In the union of disjoint branches f has an invariant set with entropy >= log(growth).
 
-    By a covering graph on so many intervals, `states`.
+    By a covering graph on so many intervals, `states`. cells: closed intervals, one in each branch,
+    that f maps over them all, if that is the graph; else none.
     """
 
     at: Place
     branches: tuple[Branch, ...]
     states: int
     growth: Fraction
+    cells: tuple[Phases, ...] = ()
 
     def __post_init__(self) -> None:
         if any(one.phases[1] >= two.phases[0] for one, two in pairwise(self.branches)):
             raise Unproved("branches must be disjoint and in order")
+        inside = [b for x in self.cells for b, y in enumerate(self.branches) if within(x, y.phases)]
+        if self.cells and not (sorted({*inside}) == inside and len(inside) == self.growth):
+            raise Unproved("cells are in branches, one in each, and as many as the growth")
 
     @property
     def entropy(self) -> Range:
@@ -186,8 +59,10 @@ class EntropyBound(Conclusion):
 
     @property
     def sentence(self) -> str:
+        if self.cells:
+            return self._shift
         domain = hull([each.phases for each in self.branches])
-        times = hull([(each.begin, max(each.ends)) for each in self.branches])
+        times = hull([each.times for each in self.branches])
         return (
             f"f has a compact set K in {show_range(domain)}, f(K) in K, on which it is continuous "
             f"and has topological entropy at least log {show(self.growth)} >= "
@@ -196,7 +71,22 @@ class EntropyBound(Conclusion):
         )
 
     @property
+    def _shift(self) -> str:
+        named = ", ".join(f"C{i} = {show_range(cell)}" for i, cell in enumerate(self.cells))
+        return (
+            f"f is continuous on each of {named}, all first impacts from there being transversal, "
+            "and maps each over the interval from the first to the last of them. So each sequence "
+            f"of the symbols 0 to {len(self.cells) - 1} is the itinerary of a phase whose orbit "
+            "stays in these sets, each periodic one that of a periodic orbit; on the compact set "
+            "of all phases whose orbits stay there, f has the full shift on "
+            f"{len(self.cells)} symbols as a factor, and entropy at least "
+            f"{floor_text(self.entropy[0])}."
+        )
+
+    @property
     def brief(self) -> str:
+        if self.cells:
+            return f"f maps {len(self.cells)} sets each over them all: a full shift is a factor"
         return (
             f"entropy >= log {show(self.growth)} >= {floor_text(self.entropy[0])}, by a covering "
             f"graph on {len(self.branches)} branches of f, {self.states} intervals"
@@ -211,18 +101,34 @@ class EntropyBound(Conclusion):
         return {"entropy_lower_bound": self.entropy}
 
 
+class Weighted(NamedTuple):
+    """Intervals D_i, weights v_i >= 0, not all 0, and m = growth >= 1: by which a graph multiplies
+    the weights, at least or at most.
+    """
+
+    states: Sequence[Range]
+    weights: Sequence[Fraction]
+    growth: Fraction
+
+    @classmethod
+    def read(cls, states: Reader, weights: Reader, growth: Reader) -> Self:
+        """Read them."""
+        vector, ratio = weights.numbers(1, 2000), growth.number()
+        if ratio < 1 or min(vector) < 0 or not any(vector):
+            raise Unproved("a growth >= 1 of weights >= 0, not all 0, is expected")
+        ends = [state.range() for state in states.items(len(vector), len(vector))]
+        return cls(ends, vector, ratio)
+
+
 def entropy_bound(
-    branches: Sequence[Branch],
-    images: Mapping[Fraction, Range],
-    states: Sequence[Range],
-    weights: Sequence[Fraction],
-    growth: Fraction,
+    branches: Sequence[Branch], images: Mapping[Fraction, Range], graph: Weighted
 ) -> EntropyBound:
     """Theorem. Let Z_b be disjoint branches, in order, f of some of their phases lie in `images`,
-    D_i intervals, the states, and v_i >= 0 weights, not all 0. If the ends of the part X_ib that
+    D_i, v_i and m be those of `graph`, the D_i its states. If the ends of the part X_ib that
     D_i and Z_b have in common have known images, f(X_ib) contains the interval between these. For
     each i let the sum over b of the greatest v_j with D_j in that interval, 0 if there is none, be
-    at least m v_i, m = growth >= 1. Then what `EntropyBound.sentence` says.
+    at least m v_i. Then what `EntropyBound.sentence` says; with one state and as
+    large an m as there are branches, of the X_1b as cells.
 
     Proof. 1. Join i to such a j for each b: A v >= m v, so an i with v_i > 0 starts at least
     c m^n paths of length n, c > 0, to states with v_j > 0 (Collatz and Wielandt); they all go on.
@@ -231,9 +137,12 @@ def entropy_bound(
     infinite paths form a compact set K, f(K) in K. 3. Two paths from i part at some step, from one
     state by different b: the phases are then in disjoint closed Z_b, a fixed distance apart. So for
     one d > 0 and all n, K has (n, d)-separated sets of c m^n points (Bowen's definition).
+    4. With one state f maps each X_1b over it, and so over all of them: all sequences of the b are
+    followed. For one that repeats after p steps, f^p maps an interval in X_1b over itself, by
+    intermediate values: it has a fixed point there. As the X_1b are apart, the itinerary is a
+    continuous map of the phases that stay in them onto all sequences, and turns f into the shift.
     """
-    if growth < 1 or min(weights) < 0 or not any(weights):
-        raise Unproved("a growth >= 1 of weights >= 0, not all 0, is expected")
+    states, weights, growth = graph
     if len(places := {each.at for each in branches}) != 1:
         raise Unproved("the branches are about no oscillator, or about different ones")
     ranked = sorted(zip(weights, states, strict=True), reverse=True)
@@ -252,7 +161,9 @@ def entropy_bound(
         known = [(a, b) for a, b in parts if a < b and a in images and b in images]
         if sum(best(images[a], images[b]) for a, b in known) < growth * weight:
             raise Unproved("the graph does not multiply the weights by the growth")
-    return EntropyBound(places.pop(), tuple(branches), len(states), growth)
+    is_full = len(states) == 1 and growth == len(known) > 1
+    cells = tuple(Phases(*part) for part in known) if is_full else ()
+    return EntropyBound(places.pop(), tuple(branches), len(states), growth, cells)
 
 
 def covering_graph(context: Context, reader: Reader) -> EntropyBound:
@@ -260,34 +171,9 @@ def covering_graph(context: Context, reader: Reader) -> EntropyBound:
 
     time brackets the first impact after a phase, as in `Branch.image`. Conclusion: `entropy_bound`.
     """
-    branches_of, images, states, weights, growth = reader.fields(
-        "branches", "images", "states", "weights", "growth"
-    )
-    branches = [context.step(name, Branch) for name in branches_of.items(1, 1000)]
-    vector = weights.numbers(1, 2000)
-    return entropy_bound(
-        branches,
-        read_images(branches, images),
-        [state.range() for state in states.items(len(vector), len(vector))],
-        vector,
-        growth.number(),
-    )
-
-
-def read_images(branches: Sequence[Branch], entries: Reader) -> dict[Fraction, Range]:
-    """Read phases on branches and brackets of their first impacts; enclose f there, on the line."""
-    return dict(read_image(branches, entry) for entry in entries.items(1, 5000))
-
-
-def read_image(branches: Sequence[Branch], entry: Reader) -> tuple[Fraction, Range]:
-    """Read a phase on a branch and a bracket of its first impact; enclose f there, on the line."""
-    phase_of, time_of = entry.fields("phase", "time")
-    phase = phase_of.number()
-    METER.get().spend(len(branches))
-    on = [each for each in branches if each.cuts[0] <= phase <= each.cuts[-1]]
-    if not on:
-        raise phase_of.fail("the phase lies on no branch")
-    return phase, lifted(on[0].image(phase, time_of.range()), -on[0].turn, BITS)
+    names, images, *graph = reader.fields("branches", "images", "states", "weights", "growth")
+    branches = [context.step(name, Branch) for name in names.items(1, 1000)]
+    return entropy_bound(branches, read_images(branches, images), Weighted.read(*graph))
 
 
 # -- the row ---------------------------------------------------------------------------------------

@@ -8,14 +8,14 @@ from fractions import Fraction
 from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.equations import launch_acceleration
+from proofs.trusted.equations import inverse_slope
 from proofs.trusted.flights import Motion, lifted
-from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range, hull, increasing, show
-from proofs.trusted.paper.s34_circle.entropy import Branch
+from proofs.trusted.paper.branches import Branch
 from proofs.trusted.paper.s34_circle.grazing import Grazing
 from proofs.trusted.paper.s34_circle.pieces import Piece, Pieces
 from proofs.trusted.windows import BITS
@@ -125,19 +125,13 @@ def _between(piece: Piece, entry: Reader) -> Iterator[Part]:
 def part(branch: Branch, phases: Range, image: Range) -> Part:
     """Return what f is on an interval of a branch, on which it is monotone onto `image`."""
     bound = stretch(branch.motion(phases), (image[0] - phases[1], image[1] - phases[0]))
-    if bound is None:
-        raise Unproved("f' is not proved to be other than 0")
     return bound, lifted(image, -branch.turn, BITS)
 
 
-def stretch(motion: Motion, time: Range) -> Fraction | None:
-    """Bound 1/|f'| = |gap'| / |(sin(eta t) / eta) A|; None where that may vanish."""
-    sin, push = motion.clock(time).mass_sin, launch_acceleration(motion.start())
-    along = sin / motion.eta * push
-    if along.has_zero:
-        return None
-    ratio: Enclosure = motion.gap_of(time, 1) / along
-    return max(-ratio.range[0], ratio.range[1])
+def stretch(motion: Motion, time: Range) -> Fraction:
+    """Bound 1/|f'| for impacts at these times; Unproved where f' may be 0."""
+    bounds: Range = inverse_slope(motion.start(), motion.clock(time)).range
+    return max(-bounds[0], bounds[1])
 
 
 def beside(piece: Piece) -> Iterator[Part]:
@@ -150,8 +144,8 @@ def beside(piece: Piece) -> Iterator[Part]:
 def _side(grazing: Grazing, *, near: bool) -> Part:
     """Return the part on one side of a graze."""
     time = (grazing.begin, grazing.time[1]) if near else grazing.landing
-    bound = None if time is None else stretch(grazing.motion, time)
-    if time is None or bound is None:
-        raise Unproved("f' is not proved to be other than 0 beside a graze")
-    low, high = grazing.phases[0] + time[0], grazing.phases[1] + time[1]
-    return bound, lifted((low, high), -(grazing.turn if near else grazing.beyond), BITS)
+    if time is None:
+        raise Unproved("nothing is known of impacts beside a graze")
+    image = grazing.phases[0] + time[0], grazing.phases[1] + time[1]
+    turn = grazing.turn if near else grazing.beyond
+    return stretch(grazing.motion, time), lifted(image, -turn, BITS)

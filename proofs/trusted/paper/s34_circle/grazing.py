@@ -12,10 +12,10 @@ from proofs.trusted.flights import Motion, lifted, whole_turns
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.enclose import sqrt
+from proofs.trusted.kernel.enclose import integer, sqrt
 from proofs.trusted.kernel.gaps import falls
 from proofs.trusted.numbers import Phases, Range, between, increasing, show_range
-from proofs.trusted.paper.s34_circle.entropy import read_turn
+from proofs.trusted.paper.branches import MOST_TURNS
 from proofs.trusted.parameters import Place
 from proofs.trusted.windows import BITS, DEEPEST, Meetings, clear, leaves, level
 
@@ -114,14 +114,14 @@ def grazing(context: Context, reader: Reader) -> Grazing:
     phases_of, turn_of, times_of, beyond_of, landing_of = reader.fields(
         "phases", "turn", "times", "beyond", "landing"
     )
-    of, phases, times = context.of, Phases(*phases_of.range()), times_of.numbers(4, 4)
-    if not -1 < of.nu < 0:
+    at, phases, times = context.place, Phases(*phases_of.range()), times_of.numbers(4, 4)
+    if not -1 < at.point[1] < 0:
         raise Unproved("windows are known for -1 < nu < 0 only")
     if not increasing(times):
         raise times_of.fail("times must increase")
     landing = None if landing_of.is_null() else landing_of.range()
-    turns = read_turn(turn_of), read_turn(beyond_of)
-    return graze(Motion(of.place, phases, BITS), turns, times, landing)
+    turns = integer(turn_of, 1, MOST_TURNS), integer(beyond_of, 1, MOST_TURNS)
+    return graze(Motion(at, phases, BITS), turns, times, landing)
 
 
 def graze(

@@ -49,7 +49,7 @@ class Separation(Conclusion):
 
     The flights from phi_s to phase[1] have their first impact, a transversal one, after a time in
     `time`, at a phase in `arrival` + 2 pi turns, with a relative speed in `speed`. Start and
-    arrival are on the line, in the turn that ends with phi_s.
+    arrival are on the line, below phi_s; in the turn that ends with it, where the flight returns.
     """
 
     at: Place

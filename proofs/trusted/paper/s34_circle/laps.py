@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved, log
@@ -14,7 +13,8 @@ from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range, between, show, within
-from proofs.trusted.paper.s34_circle.entropy import EntropyBound, read_images
+from proofs.trusted.paper.branches import read_images
+from proofs.trusted.paper.s34_circle.entropy import EntropyBound, Weighted
 from proofs.trusted.paper.s34_circle.pieces import Known, Pieces
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
@@ -75,16 +75,8 @@ class EntropyRange(Conclusion):
         return {"entropy": self.entropy}
 
 
-class OuterGraph(NamedTuple):
-    """Intervals D_i with weights v_i, and a number m: a graph that multiplies v by at most m."""
-
-    states: Sequence[Range]
-    weights: Sequence[Fraction]
-    growth: Fraction
-
-
 def entropy_range(
-    pieces: Pieces, lower: EntropyBound, known: Known, outer: OuterGraph
+    pieces: Pieces, lower: EntropyBound, known: Known, outer: Weighted
 ) -> EntropyRange:
     """Theorem. Let J and the pieces be those of `Pieces`, `known` enclose f at phases, and D_i
     be intervals, one of them containing J, with weights v_i > 0. For each i let the sum over the
@@ -103,8 +95,8 @@ def entropy_range(
     for the same k: E has at most N_n (1 + n |J| / d) points (Misiurewicz and Szlenk 1980).
     """
     states, weights, growth = outer
-    if growth < 1 or min(weights) <= 0:
-        raise Unproved("a growth >= 1 of weights > 0 is expected")
+    if min(weights) <= 0:
+        raise Unproved("weights > 0 are expected")
     region, monotone = pieces.region, pieces.monotone
     ranked = sorted(zip(weights, states, strict=True))
     if not any(within(region, state) for state in states):
@@ -137,18 +129,12 @@ def itinerary_graph(context: Context, reader: Reader) -> EntropyRange:
     pieces and lower: steps of the rules `pieces` and `covering-graph`; the rest as in the latter.
     Conclusion: `entropy_range`.
     """
-    pieces_of, lower_of, images, states, weights, growth = reader.fields(
+    pieces_of, lower_of, images, *graph = reader.fields(
         "pieces", "lower", "images", "states", "weights", "growth"
     )
-    cut = context.step(pieces_of, Pieces)
-    vector = weights.numbers(1, 2000)
+    cut, lower = context.step(pieces_of, Pieces), context.step(lower_of, EntropyBound)
     known = read_images([piece.branch for piece in cut.monotone], images)
-    outer = OuterGraph(
-        [state.range() for state in states.items(len(vector), len(vector))],
-        vector,
-        growth.number(),
-    )
-    return entropy_range(cut, context.step(lower_of, EntropyBound), known.get, outer)
+    return entropy_range(cut, lower, known.get, Weighted.read(*graph))
 
 
 # -- the row ---------------------------------------------------------------------------------------

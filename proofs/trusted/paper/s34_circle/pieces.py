@@ -14,7 +14,7 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import TURN, Phases, Range, ceil_text, floor_text, show_range
-from proofs.trusted.paper.s34_circle.entropy import Branch
+from proofs.trusted.paper.branches import Branch
 from proofs.trusted.paper.s34_circle.grazing import Grazing
 from proofs.trusted.paper.s34_circle.landing import Lands, NeverImpacts, Separation
 from proofs.trusted.windows import BITS

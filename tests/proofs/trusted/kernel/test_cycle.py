@@ -43,6 +43,7 @@ def exact(box):
     return [[str(Fraction(x)) for x in side] for side in box]
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(("data", "period", "box", "matrix", "turns", "stability"), TRUTHS)
 def test_truths(data, period, box, matrix, turns, stability):
     found = proved(data, period, exact(box), matrix, turns)
@@ -65,6 +66,7 @@ LIES = [  # what is false, the map, period, box, matrix, turns; the reason
 ]
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("data", "period", "box", "matrix", "turns", "reason"), [x[1:] for x in LIES],
     ids=[x[0] for x in LIES],

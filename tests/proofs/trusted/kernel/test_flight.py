@@ -199,6 +199,7 @@ def test_the_oscillator_as_data_is_the_oscillator(phi):
 
 STILL = {"name": "y", "form": "x", "equation": "0", "start": ["x"]}
 CLOCK = {"variables": ["x"], "time": "t", "motion": [STILL], "gaps": ["2 - t"], "values": ["y"]}
+SIX = {"name": "p", "form": "6", "equation": "0", "start": ["6"]}
 KINK = {
     "name": "y",
     "form": "sqrt((t - 1)**2)",
@@ -225,6 +226,7 @@ STATE = [("0", "1/10")]
 TRUTHS = [
     ("a clock", CLOCK, STATE, 0),
     ("the first of three zeros", clock(gaps=["(1 - t)*(2 - t)*(3 - t)"], values=["t"]), STATE, 1),
+    ("much later for some", clock(gaps=["2 + x - t"], values=["t"]), [("0", "8")], 10),
     ("y' = y", moving("x*exp(t)", "y", "x", values=["y/x"]), [("1/10", "1/5")], 7.389056),
     ("y' = 2 t", moving("t**2", "2*t", "0", values=["y"]), STATE, 4),
     ("a ball", ball(values=["v", "phi"], periods={}), LAUNCH, 2),
@@ -275,8 +277,21 @@ LIES = [  # what is false, the function, a box of states, the reason
     ("a derivative by y", clock(values=["D(x*y, y)"]), STATE, "not a variable: 'y'"),
     ("a derivative by a number", ball(values=["D(g*t, g)", "v"]), LAUNCH, "not a variable: 'g'"),
     ("half a period", ball(periods={"phi": "pi"}), LAUNCH, PERIOD),
+    ("a gap that counts turns", ball(gaps=["(y - sin(phi + t))*(9 + phi)"]), LAUNCH, PERIOD),
     ("the period of another circle", ball(periods={"v": "2*pi"}), LAUNCH, PERIOD),
     ("a period that varies", ball(periods={"phi": "v"}), LAUNCH, "a period is a number"),
+    (
+        "a motion as a period",
+        ball(motion=[*BALL["motion"], SIX], periods={"phi": "p"}),
+        LAUNCH,
+        "a period is a number",
+    ),
+    (
+        "a velocity as a period",
+        ball(motion=[*BALL["motion"], SIX], periods={"phi": "6 + D(p, t)"}),
+        LAUNCH,
+        "a period is a number",
+    ),
     ("no period", ball(periods={"phi": "0"}), LAUNCH, "a period is positive"),
     ("a period of nothing", ball(periods={"y": "pi"}), LAUNCH, "what is no variable"),
     ("a name twice", clock(variables=["x", "t"]), STATE, "a name that is there twice"),
@@ -289,6 +304,7 @@ def enclosed_values(data, box):
     return flight(data).values(enclosed([tuple(map(Fraction, side)) for side in box], 64))
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("data", "box", "first"), [x[1:] for x in TRUTHS], ids=[x[0] for x in TRUTHS]
 )
@@ -297,6 +313,7 @@ def test_truths(data, box, first):
     assert low - Fraction(1, 10**6) <= first <= high + Fraction(1, 10**6)
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(("data", "box", "reason"), [x[1:] for x in LIES], ids=[x[0] for x in LIES])
 def test_lies(data, box, reason):
     with pytest.raises((Unproved, Malformed)) as caught:

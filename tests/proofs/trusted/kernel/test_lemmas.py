@@ -24,7 +24,7 @@ from tests.proofs.trusted.kernel.lemma_examples import EXAMPLES, text
 
 PLANE = {"variables": ["x", "y"], "values": ["x*y - 1", "x - y"]}
 SQUARE = "x**2 - 2"
-QUICK = ("deep_json", "deep_tree", "undecided_leaves", "wide_cone")
+QUICK = ("deep_tree", "undecided_leaves", "wide_cone")
 KERNEL = [name for name, place in RULES.items() if place.startswith("kernel.")]
 
 
@@ -157,6 +157,7 @@ def test_the_only_zero_where_the_function_is_monotone():
         assert "no other" not in check(zero_file(step)).sentences[0]
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("bracket", "error"),
     [
@@ -173,6 +174,7 @@ def test_brackets_that_prove_nothing(bracket, error):
         check(zero_file(RISING, bracket))
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("step", "function"),
     [
@@ -211,6 +213,7 @@ UNIQUE = {
 }
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     "changes",
     [
@@ -264,6 +267,7 @@ def test_arc():
         assert says("arc", alone, C=CIRCLE).endswith(f"a smooth function of `x` in {ends}.")
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("changes", "reason"),
     [
@@ -316,6 +320,7 @@ def within(**changes):
     return lambda d: d["steps"]["step"]["witness"].update(changes)
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("edit", "message"),
     [
@@ -328,6 +333,10 @@ def within(**changes):
         (lambda d: d["functions"].update(G=PLANE), "nothing uses: G"),
         (lambda d: d["steps"].update(other=d["steps"]["step"]), "nothing uses: other"),
         (lambda d: d["steps"].update(zero=d["steps"]["step"]), "not named like"),
+        (
+            lambda d: d.update(functions={"F": PLANE}, steps={"F": d["steps"]["step"]}),
+            "not named like",
+        ),
         (lambda d: d["steps"]["step"].update(rule="believe"), "unknown rule"),
         (lambda d: d["steps"]["step"].update(note="x"), "unknown field"),
         (within(note="x"), "unknown field"),
@@ -358,6 +367,7 @@ def test_malformed_witnesses(rule, witness):
         says(rule, witness, F=PLANE)
 
 
+@pytest.mark.every
 @pytest.mark.parametrize("rule", ["zero", "graph", "entropy", "cone", "covers"])
 def test_steps_name_earlier_steps_of_the_right_kind(rule):
     for name in ("step", "nothing", "F"):

@@ -60,7 +60,7 @@ def test_values_and_derivatives_for_all_parameters(name, count):
 
 def test_definitions_say_parameters_and_periods():
     said = read(MAPS)["U"].definition
-    head = "`U` is `T`, then `S`, where `T` is `S`, then `S`, where `S(x, y) = (x + y + k*sin(x)"
+    head = "`U` is `S`, then `S`, then `S`, where `S(x, y) = (x + y + k*sin(x)"
     assert said.startswith(head)
     assert ", for all `k` in [0.5, 0.6], `x` modulo `2*pi`, `y` modulo `2*pi`" in said
 
@@ -78,6 +78,8 @@ LIES = [
     ("a negative period", {"F": with_(DOUBLING, periods={"x": "-1"})}, "positive"),
     ("a range as a period", {"F": with_(STANDARD, periods={"x": "k"})}, "a period is a number"),
     ("the state as a period", {"F": with_(DOUBLING, periods={"x": "x"})}, "a period is a number"),
+    ("the state, bound away", {"F": with_(DOUBLING, periods={"x": "at(1, k=x)"})}, "is a number"),
+    ("a derivative as a period", {"F": with_(DOUBLING, periods={"x": "D(x, x)"})}, "is a number"),
     ("e as a variable", {"F": {"variables": ["e"], "parameters": {}, "values": ["e"]}}, "not a n"),
     ("a parameter of no range", {"F": with_(STANDARD, parameters={"k": ["1", "0"]})}, "reversed"),
     ("an unknown name", {"F": with_(STANDARD, parameters={"r": ["1", "2"]})}, "unknown variable"),
@@ -92,11 +94,14 @@ LIES = [
     ("a circle of another number", {"F": TWO, "G": with_(TWO, parameters={"c": ["2", "2"]}),
      "P": {"maps": ["F", "G"]}}, "one state, with the same angles"),
     ("named as the derivative", {"D": DOUBLING}, "functions are named like F"),
+    ("a tower of maps", {"F": DOUBLING, "G0": {"maps": ["F", "F"]}} | {
+     f"G{k}": {"maps": [f"G{k - 1}", f"G{max(k - 2, 0)}"]} for k in range(1, 40)}, "more than 100"),
     ("too few values", {"F": {"variables": ["x", "y"], "values": ["x"]},
      "G": {"maps": ["F", "F"]}}, "one state"),
 ]  # fmt: skip
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(("functions", "reason"), [x[1:] for x in LIES], ids=[x[0] for x in LIES])
 def test_lies(functions, reason):
     with pytest.raises(Malformed, match=reason) as caught:
@@ -145,6 +150,7 @@ def test_turns_are_those_of_a_relation():
     assert "at least log(2)/2" in said
 
 
+@pytest.mark.every
 @pytest.mark.parametrize("way", GOLDEN)
 @pytest.mark.parametrize("turns", ["2", "-1", "1/2"])
 def test_other_turns_are_refused(way, turns):
@@ -166,18 +172,25 @@ CONE = {"box": [["-1", "1"]], "outside": None, "jacobian": [["3", "5"]], "tree":
         "matrices": None}  # fmt: skip
 
 
-@pytest.mark.parametrize("radius", ["1/20", "3/10"])
-def test_no_image_comes_round_the_circle_in_a_cone(radius):
-    """A set so long that its image meets it with other turns, too, has more orbits than paths."""
+@pytest.mark.every
+@pytest.mark.parametrize(
+    ("radius", "shift"), [("1/20", "0"), ("3/10", "0"), ("1/5", "1/8"), ("1/5", "-1/8")]
+)
+def test_no_image_comes_round_the_circle_in_a_cone(radius, shift):
+    """A set so long that its image meets it with other turns, too, has more orbits than paths.
+
+    Shifted by 1/8 it comes round on one side alone.
+    """
+    map_ = {"F": with_(DOUBLING, values=[f"4*x + ({shift})"])}
     steps = {"a": h_set("0", radius), "c": covering("a", "a", "0")}
     steps |= {"g": ("graph", {"covers": ["c"]})}
     cone = "cone", {"graph": "g", "forms": [["1"]], "relations": [CONE]}
-    assert proved(FOUR, steps).nodes
+    assert proved(map_, steps).nodes
     if radius == "1/20":
-        assert "exactly one point" in proved(FOUR, steps | {"k": cone}).sentence
+        assert "exactly one point" in proved(map_, steps | {"k": cone}).sentence
     else:
         with pytest.raises(Unproved, match="not proved on"):
-            proved(FOUR, steps | {"k": cone})
+            proved(map_, steps | {"k": cone})
 
 
 def test_one_graph_of_two_maps():
@@ -193,6 +206,33 @@ def test_one_graph_of_two_maps():
         proved(maps, steps | other | {"g": ("graph", {"covers": [*arrows, "a2"]})})
 
 
+# -- images ----------------------------------------------------------------------------------------
+
+PRODUCT = {"F": {"variables": ["x", "y"], "values": ["x*y", "x - y"]}}
+CUT = ["1", "1/2", None, None]
+
+
+@pytest.mark.every
+@pytest.mark.parametrize(
+    ("bounds", "tree", "is_true"),
+    [
+        ([["0", "1"], ["-1", "1"]], None, True),
+        ([["0", "1"], ["-1", "1/2"]], None, False),
+        ([["0", "9/10"], ["-1", "1"]], None, False),
+        ([["0", "1/2"], ["-1", "1"]], CUT, False),  # true of the first half
+        ([["1/100", "1"], ["-1", "1"]], CUT, False),
+    ],
+)
+def test_where_a_box_is_taken(bounds, tree, is_true):
+    witness = {"function": "F", "box": [["0", "1"]] * 2, "tree": tree, "bounds": bounds}
+    if is_true:
+        said = proved(PRODUCT, {"i": ("image", witness)}).sentence
+        assert said.endswith("and its values are in [0, 1], [-1, 1].")
+    else:
+        with pytest.raises(Unproved, match="not proved on"):
+            proved(PRODUCT, {"i": ("image", witness)})
+
+
 # -- files -----------------------------------------------------------------------------------------
 
 
@@ -204,6 +244,7 @@ def test_functions_of_a_composition_are_used_and_others_are_not():
         check(render(document))
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     "data",
     [

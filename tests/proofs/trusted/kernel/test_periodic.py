@@ -3,8 +3,10 @@
 import contextlib
 import copy
 import json
+import random
 from fractions import Fraction
 from functools import cache
+from itertools import combinations
 
 import pytest
 import sympy
@@ -14,10 +16,11 @@ from hypothesis import strategies as st
 from intervals import Undecided
 from proofs.methods.symbolic import SymbolicLemmas
 from proofs.trusted.certificate import Malformed, Reader, render
-from proofs.trusted.kernel.arithmetic import Enclosure
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.contractor import Contractor, Empty
 from proofs.trusted.kernel.head import read_function
 from proofs.trusted.kernel.meter import Exhausted
+from proofs.trusted.kernel.periodic import _meets, _require_apart
 from proofs.trusted.verify import Rejected, check, premises
 from tests.proofs.methods.test_henon import CYCLES
 from tests.proofs.trusted.kernel.lemma_examples import LOGISTIC, henon
@@ -68,14 +71,10 @@ def test_the_cycles_of_the_henon_map_are_as_many_as_published(period):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("period", [10, 12, 14])
+@pytest.mark.parametrize(
+    "period", [10, 12, *(pytest.param(n, marks=pytest.mark.long) for n in (14, 18, 20))]
+)
 def test_longer_cycles_of_the_henon_map(period):
-    assert counts(source(HENON, period)) == of_galias(period)
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("period", [18, 20])
-def test_the_longest_cycles_of_the_henon_map(period):
     assert counts(source(HENON, period)) == of_galias(period)
 
 
@@ -238,7 +237,7 @@ def test_another_function():
         check(json.dumps(document))
 
 
-@pytest.mark.parametrize("value", ["x + x**2", "x"])
+@pytest.mark.parametrize("value", [pytest.param("x + x**2", marks=pytest.mark.slow), "x"])
 def test_points_that_are_not_isolated_or_not_simple(value):
     orbit = {"point": ["0"], "period": "1", "matrix": [["1"]]}
     witness = {"function": "F", "period": "1", "box": [["-1", "2"]], "radius": "1/1000"}
@@ -248,6 +247,21 @@ def test_points_that_are_not_isolated_or_not_simple(value):
         document["steps"]["periodic-orbits-1"]["witness"] = {**witness, "orbits": orbits}
         with pytest.raises(Rejected, match=message):
             check(json.dumps(document))
+
+
+def test_boxes_are_apart_if_all_pairs_are():
+    rng, seen = random.Random(4), set()
+    for _ in range(200):
+        ends = [[rng.randint(0, 12) for _ in range(2)] for _ in range(rng.randint(2, 4))]
+        boxes = [[Enclosure(x, x + rng.randint(0, 3), 64) for x in low] for low in ends]
+        apart = not any(_meets(*pair) for pair in combinations(boxes, 2))
+        try:
+            _require_apart(sorted(boxes, key=lambda box: box[0].lo))
+            assert apart
+        except Unproved:
+            assert not apart
+        seen.add(apart)
+    assert seen == {True, False}
 
 
 def test_a_fold_is_not_found():

@@ -43,6 +43,10 @@ def test_series():
         prove({"a": "2*x", "b": "2*x + h"}, lemma)
 
 
+SERIES = {"function": "sin(x) + 1", "variable": "x", "coefficients": ["1", "1"], "nonzero": []}
+
+
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("expressions", "lemma"),
     [
@@ -59,6 +63,10 @@ def test_series():
         ({"a": "1"}, {"left": "a", "right": "1", "note": "x"}),
         ({"a": "1"}, {"function": "a", "variable": "h"}),
         ({"a": "1"}, "a"),
+        ({"x": "0"}, {**SERIES, "coefficients": ["1", "0"]}),
+        ({"x": "2*x"}, SERIES),
+        ({"a": "b", "b": "a"}, {"left": "a*b", "right": "b*a"}),
+        ({"a": "x", "sin": "x"}, {"left": "a", "right": "x"}),
     ],
 )
 def test_what_is_refused(expressions, lemma):

@@ -1,8 +1,11 @@
-"""The paper's equations typed by hand, and a brute-force impact map: independent of the code."""
+"""The paper's equations typed by hand, and its impact map: independent of the code."""
 
 import math
+from fractions import Fraction
 
 from mpmath import mp, mpf
+
+from tests.oracles.motion import Impact, flight
 
 mp.dps = 50
 
@@ -56,56 +59,34 @@ def separation_phase(eta, nu):
     return root % (2 * mp.pi)
 
 
-def first_impact(eta, nu, phi, horizon=400.0, step=0.002):
-    """(flight time, phase mod 2 pi) by scanning (10) for its first sign change, then bisection.
+def first_impact(eta, nu, phi, horizon=400.0):
+    """(flight time, phase mod 2 pi) of the first impact after a plastic launch.
 
-    None if there is none, or if a local minimum comes so near 0 that a scan cannot tell.
+    None if there is none up to the horizon. A launch at the separation phase, to 40 digits, leaves.
     """
-    side = math.copysign(1.0, nu)
-    e, n, p = float(eta), float(nu), float(phi)
-
-    def gap(t):
-        return side * left_side_10(e, n, p, t, math.sin, math.cos)
-
-    t, before, last = step, gap(step), math.inf
-    while before <= 0:  # rounding next to launch
-        t += step
-        before = gap(t)
-        if t > 0.2:
-            return None
-    while t < horizon:
-        value = gap(t + step)
-        if value <= 0:
-            return _refine(mpf(eta), mpf(nu), mpf(phi), side, t, t + step)
-        if before < last and before < value and before < 1e-5 and t > 0.2:
-            return None
-        t, last, before = t + step, before, value
-    return None
+    leaves = abs(launch_acceleration(mpf(eta), mpf(nu), mpf(phi))) < mpf(10) ** -40
+    found = flight(*map(exact, (eta, nu, phi)), latest=horizon, released=leaves)
+    if not isinstance(found, Impact):
+        return None
+    time = number(found.time)
+    return time, (mpf(phi) + time) % (2 * mp.pi)
 
 
-def _refine(eta, nu, phi, side, low, high):
-    low, high = mpf(low), mpf(high)
-    for _ in range(150):
-        middle = (low + high) / 2
-        if side * left_side_10(eta, nu, phi, middle) > 0:
-            low = middle
-        else:
-            high = middle
-    return low, (phi + low) % (2 * mp.pi)
+def rebound(eta, nu, epsilon, phi, gamma):
+    """(flight time, velocity) of the next impact after one with restitution."""
+    found = flight(*map(exact, (eta, nu, phi, epsilon, gamma)))
+    return number(found.time), number(found.velocity)
 
 
-def rebound(eta, nu, epsilon, phi, gamma, step):
-    """(flight time, velocity) of the next impact by a scan of (14) in steps, bisection and (15)."""
-    side = math.copysign(1.0, nu)
-    low = step = mpf(step)
-    while side * left_side_14(eta, nu, epsilon, phi, gamma, low + step) > 0:
-        low += step
-    high = low + step
-    for _ in range(90):
-        middle = (low + high) / 2
-        flying = side * left_side_14(eta, nu, epsilon, phi, gamma, middle) > 0
-        low, high = (middle, high) if flying else (low, middle)
-    return low, right_side_15(eta, nu, epsilon, phi, gamma, low)
+def exact(x):
+    """A number as a rational."""
+    size, exponent = mpf(x).man_exp
+    return int(mp.sign(x)) * int(size) * Fraction(2) ** exponent
+
+
+def number(ball):
+    """The middle of a ball."""
+    return mpf(ball.mid().str(60, radius=False))
 
 
 def slope(eta, nu, phi, flight, h=mpf(10) ** -15):

@@ -28,10 +28,9 @@ from proofs.trusted.flights import FirstImpact, Motion, first_impact
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.head import read_function
-from proofs.trusted.numbers import Phases
-from proofs.trusted.paper.beyond.attractors import AtRest, Leaves, NeverSticks
-from proofs.trusted.paper.beyond.boxes import AllStick, CoveringShift, Sheet, covering_shift
+from proofs.trusted.paper.beyond.attractors import AllStick, AtRest, Leaves, NeverSticks
 from proofs.trusted.paper.beyond.returning import ReturningMotion, StickingMotion
+from proofs.trusted.paper.s34_circle.entropy import EntropyBound
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.rules import find_rule
 from proofs.trusted.slopes import avoids
@@ -56,15 +55,6 @@ def text(box=BOX, count=2):
 
 def document():
     return json.loads(text())
-
-
-def sheets():
-    known = premises(text()).known
-    flights = [json.loads(text())["steps"][name]["witness"] for name in known]
-    (cells,) = [each["cells"] for each in flights if "cells" in each]
-    return [
-        Sheet(tuple(known[name] for name in each["flights"]), int(each["turns"])) for each in cells
-    ]
 
 
 def rejected(document, match=None, error=Rejected):
@@ -101,7 +91,7 @@ def sides():
 def test_a_full_shift_for_all_oscillators_of_a_box():
     report = check(text())
     (found,) = report.conclusions
-    assert isinstance(found, CoveringShift) and report.parameters == found.at == BOX
+    assert isinstance(found, EntropyBound) and report.parameters == found.at == BOX
     (sentence,) = report.sentences
     assert sentence.startswith("At eta in [0.2119, 0.2122], nu in [-0.2004, -0.1996], epsilon = 0:")
     assert str(found.cells[1][0])[0] == "1" and "full shift on 2 symbols" in sentence
@@ -124,14 +114,6 @@ def test_the_images_are_beyond_the_sets_at_oscillators_of_the_box(box, count):
         images = np.sort((images - 2 * np.pi * np.floor(images[30] / (2 * np.pi)))[[0, -1]], axis=0)
         assert (images[0] < float(found.cells[0][0])).all()
         assert (images[1] > float(found.cells[-1][1])).all()
-
-
-def test_the_oracle_agrees_and_finds_what_is_made_false():
-    (found,) = check(text()).conclusions
-    assert oracle(found, random.Random(1)) == []
-    moved = tuple(Phases(low + F("0.1"), high + F("0.1")) for low, high in found.cells)
-    assert oracle(replace(found, cells=moved), random.Random(1))
-    assert oracle(replace(found, at=Place((F("0.2"),) * 2, (F("-0.2"),) * 2)), random.Random(1))
 
 
 @pytest.mark.parametrize(
@@ -182,17 +164,17 @@ def test_a_box_says_nothing_of_claims_nor_of_rules_for_one_oscillator():
     rejected(made, "string", Malformed)
     known = copy.deepcopy(premises(text()).known)
     with pytest.raises(Unproved, match="one eta and one nu"):
-        from proofs.trusted.paper.s34_circle.entropy import branch
+        from proofs.trusted.paper.branches import branch
 
         witness = {"cuts": ["11/10", "23/20"], "turn": "4", "ends": ["26"]}
         branch(Context(BOX, {}, known), Reader(witness))
 
 
 ALL_OVER_A_BOX = {
-    "avoids", "first-impact", "itinerary", "lands", "passes-separation", "point",
+    "avoids", "branch", "first-impact", "itinerary", "lands", "passes-separation", "point",
     "separation", "slope-range", "staying-set", "superstable-motion",
 }  # fmt: skip
-ONE_OSCILLATOR = {
+ONE_OSCILLATOR = {  # of branches those with long flights
     "branch", "dimension", "grazing", "never-impacts",
 }  # fmt: skip
 
@@ -222,14 +204,6 @@ def test_which_rules_of_committed_certificates_hold_all_over_a_box():
     assert (holds, fails) == (ALL_OVER_A_BOX, ONE_OSCILLATOR)
 
 
-@pytest.mark.parametrize("turns", ["0", "3", "5", "9"])
-def test_images_after_other_turns_are_elsewhere(turns):
-    made = document()
-    (step,) = [each for each in made["steps"].values() if each["rule"] == "covering-shift"]
-    step["witness"]["cells"][0]["turns"] = turns
-    rejected(made, "beyond the cells|same side")
-
-
 def test_an_earlier_impact_must_be_excluded():
     """The second set's flights pass close to the table at the first set's impacts."""
     made = document()
@@ -240,33 +214,82 @@ def test_an_earlier_impact_must_be_excluded():
     rejected(made)
 
 
-@pytest.mark.parametrize(
-    "change",
-    [
-        lambda x: [x[0]],
-        lambda x: [x[0], x[0]],
-        lambda x: [x[0], x[1]._replace(turns=x[1].turns + 1)],
-        lambda x: [x[0], x[1]._replace(flights=(replace(x[1].flights[0], transversal=False),))],
-        lambda x: [x[0], x[1]._replace(flights=x[1].flights * 2)],
-        lambda x: [
-            x[0],
-            x[1]._replace(flights=(replace(x[1].flights[0], at=PAPER.place), *x[1].flights[1:])),
-        ],
-    ],
-)
-def test_no_hypothesis_of_the_full_shift_is_dropped(change):
-    assert covering_shift(sheets()[::-1]) == covering_shift(sheets())
-    with pytest.raises(Unproved):
-        covering_shift(change(sheets()))
+def graph_of(made):
+    (graph,) = [x["witness"] for x in made["steps"].values() if x["rule"] == "covering-graph"]
+    return graph, [x["witness"] for x in made["steps"].values() if x["rule"] == "branch"]
 
 
-def test_sets_that_are_not_mapped_over_each_other():
+def halved(made):
     """f maps the lower half of a set over the lower half of them all, at most."""
+    flight = next(each["witness"] for each in made["steps"].values() if "times" in each["witness"])
+    low, high = map(F, flight["phases"])
+    flight["phases"] = [str(low), str((low + high) / 2)]
+
+
+def twice(made):
+    branch = graph_of(made)[1][0]
+    branch["flights"] *= 2
+
+
+def later(made, turns):
+    graph_of(made)[1][0]["turn"] = turns
+
+
+def bracket(made, place, end):
+    """A bracket so close to one end of the window that the impact is not in it."""
+    entry = graph_of(made)[0]["images"][place]
+    times = list(map(F, entry["time"]))
+    times[1 - end] = times[end] + (F(1, 1000) if end == 0 else -F(1, 1000))
+    entry["time"] = texts(times)
+
+
+SHIFT_LIES = {
+    **{
+        f"bracket {k} at end {end} of its window": partial(bracket, place=k, end=end)
+        for k, end in ((0, 0), (1, 1), (2, 0), (3, 1))
+    },
+    **{f"images after {x} turns": partial(later, turns=x) for x in ("0", "3", "5", "9", "-1")},
+    "a flight twice": twice,
+    "half a set": halved,
+    "one branch": lambda made: graph_of(made)[0]["branches"].pop(),
+    "a branch twice": lambda made: graph_of(made)[0].update(branches=["branch-2", "branch-2"]),
+    "a wider hull": lambda made: graph_of(made)[0].update(states=[["1", "2"]]),
+    "more symbols": lambda made: graph_of(made)[0].update(growth="3"),
+}
+
+
+@pytest.mark.parametrize("lie", SHIFT_LIES)
+def test_a_forged_full_shift_is_refused(lie):
     made = document()
-    flights = [each["witness"] for each in made["steps"].values() if "times" in each["witness"]]
-    low, high = map(F, flights[0]["phases"])
-    flights[0]["phases"] = [str(low), str((low + high) / 2)]
-    rejected(made, "beyond the cells")
+    SHIFT_LIES[lie](made)
+    rejected(made, error=(Rejected, Malformed))
+
+
+@pytest.mark.parametrize(
+    ("change", "match"),
+    [({"transversal": False}, "not transversal"), ({"at": PAPER.place}, "different oscillators")],
+)
+def test_a_branch_is_of_transversal_impacts_of_one_oscillator(change, match):
+    known = premises(text()).known
+    one, two = [name for name, x in known.items() if isinstance(x, FirstImpact)][:2]
+    (low, high), motion = known[one].motion.phases, known[one].motion
+    known[two] = replace(known[one], motion=replace(motion, phases=(high, 2 * high - low)))
+    witness = {"flights": [one, two], "turn": "4"}
+    assert find_rule("branch")(Context(BOX, {}, known), Reader(witness)).cuts[1] == high
+    known[two] = replace(known[two], **change)
+    with pytest.raises(Unproved, match=match):
+        find_rule("branch")(Context(BOX, {}, known), Reader(witness))
+
+
+def test_two_sets_and_fewer_symbols_are_no_shift():
+    """The graph is the same, and so is what it proves: an entropy, of no full shift."""
+    made = document()
+    graph_of(made)[0]["growth"] = "3/2"
+    (found,) = check(json.dumps(made)).conclusions
+    assert found.cells == () and found.growth == F(3, 2) and "factor" not in found.sentence
+    for cells in (found.branches[0].phases,) * 2, (found.branches[0].phases,):
+        with pytest.raises(Unproved, match="one in each"):
+            replace(found, growth=F(2), cells=cells)
 
 
 # -- rest, and motions that all stick --------------------------------------------------------------
@@ -397,10 +420,9 @@ def test_launches_after_the_arc_are_all_followed():
 
 def test_a_cell_that_passes_phase_0_is_no_set_in_order():
     known = premises(made_at(ZERO)).known
-    flight = next(x for x in known.values() if isinstance(x, FirstImpact))
-    with pytest.raises(Unproved, match="no interval of phases"):
-        _ = Sheet((flight,), 3).cell
     (name,) = [x for x in known if x.startswith("first-impact")]
+    with pytest.raises(Unproved, match="no interval of phases"):
+        find_rule("branch")(Context(ZERO, {}, known), Reader({"flights": [name], "turn": "3"}))
     with pytest.raises(Unproved, match="no interval of phases"):
         avoids(Context(ZERO, {}, known), Reader({"flights": [name], "target": ["1", "2"]}))
     made, steps, _ = at(ZERO)

@@ -39,7 +39,7 @@ def landing(system, phase, kick):
     """
     eta, nu, side = number(system.eta), number(system.nu), system.side
     gamma = (side * kick - nu * mp.cos(phase)) / eta
-    time, gamma = reference.rebound(eta, nu, 1, phase, gamma, kick / 10)
+    time, gamma = reference.rebound(eta, nu, 1, phase, gamma)
     return time, side * (eta * gamma + nu * mp.cos(phase + time))
 
 

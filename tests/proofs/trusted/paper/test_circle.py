@@ -35,7 +35,9 @@ from proofs.trusted.paper.staying import StayingSet, staying_set
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import check
-from tests.oracles.motion import flight
+from tests.oracles.circle import impacts_before_rest
+from tests.oracles.judge import oracle
+from tests.oracles.motion import Impact, flight
 from tests.proofs.trusted.paper import reference
 from tests.proofs.trusted.paper.steps import add, apply, derive, edited, texts
 
@@ -269,20 +271,6 @@ def test_there_is_no_sticking_arc_without_its_ends():
 # -- flights that never end ----------------------------------------------------------------------
 
 
-def least_gap(phase, oscillations=2121):
-    """The least gap near all closest approaches but the launch, by the amplitude and angle of X."""
-    eta, nu = 0.2121, -0.2
-    height, speed = 1 + nu * np.sin(phase), nu * np.cos(phase) / eta
-    size, angle = np.hypot(height, speed), np.arctan2(speed, height)
-    m = np.arange(1, oscillations)
-    lag = (angle / eta + phase + 2 * np.pi * ((m * 10000) % 2121) / 2121) % (2 * np.pi)
-    s = np.linspace(-0.02, 0.02, 4001)
-    return min(
-        float(np.min(1 + nu * np.sin(s + one) - size * np.cos(eta * s)))
-        for one in lag[np.abs(lag - np.pi / 2) < 0.1]
-    )
-
-
 @pytest.fixture(scope="module")
 def never():
     prover = Prover(SYSTEM, 30, HORIZON)
@@ -290,12 +278,12 @@ def never():
     return prover.steps[name]["witness"], found
 
 
-def test_phases_that_never_impact_by_brute_force(never):
-    low, high = map(float, never[1].phases)
-    for phase in np.linspace(low, high, 9):
-        assert least_gap(phase) > 0
-    for phase in (low - 2e-8, high + 2e-8):  # the interval is the longest, but for a few 1e-9
-        assert least_gap(phase) < 0
+def test_phases_that_never_impact_are_all_of_an_interval(never):
+    """But for a few 1e-9."""
+    assert oracle(never[1], random.Random(1)) == []
+    low, high = never[1].phases
+    for phase in (low - Fraction(2, 10**8), high + Fraction(2, 10**8)):
+        assert isinstance(flight(PAPER.eta, PAPER.nu, phase, latest=70_000.0), Impact)
 
 
 def test_the_motion_repeats_after_twenty_thousand_pi():
@@ -375,61 +363,9 @@ def coarse(arc):
     return certificate(PAPER, prover.steps, entries), step[1]
 
 
-def impacts_until_stuck(phase, most=200):
-    """The number of impacts before the sticking arc, by scanning (10); None if it is large."""
-    leave = float(reference.separation_phase(ETA, NU))
-    for count in range(most):
-        if 3 * np.pi - leave < phase < leave:
-            return count
-        phase = next_phase(phase)
-        if phase is None:
-            break
-    return None
-
-
-def next_phase(phase, horizon=3000.0):
-    """The next impact by marching (10) in steps of 0.01, in floating point; f(phase)."""
-    eta, nu = 0.2121, -0.2
-    for begin in np.arange(0.0, horizon, 100.0):
-        t = begin + np.arange(1, 10001) * 0.01
-        gap = -(
-            (1 + nu * np.sin(phase)) * np.cos(eta * t)
-            + nu / eta * np.cos(phase) * np.sin(eta * t)
-            - 1
-            - nu * np.sin(phase + t)
-        )
-        below = np.flatnonzero(gap < 0)
-        if below.size:
-            k = below[0]
-            before = gap[k - 1] if k else 0.0
-            return float((phase + t[k] - 0.01 * gap[k] / (gap[k] - before)) % (2 * np.pi))
-    return None
-
-
-@pytest.mark.slow
-def test_absorbed_phases_stick_as_soon_as_is_said(coarse):
-    rng = random.Random(1)
-    for (low, high), steps in coarse[1].within:
-        for _ in range(3):
-            phase = rng.uniform(float(low), float(high)) % float(2 * mp.pi)
-            count = impacts_until_stuck(phase)
-            assert count is not None
-            assert count <= steps
-
-
-@pytest.mark.slow
-def test_the_measure_against_a_sample(coarse):
-    """Of 600 phases spread evenly no more are left than the bounds say, but for chance."""
-    phases = (np.arange(600) + 0.5) / 600 * 2 * np.pi
-    counts = [impacts_until_stuck(float(x), 6) for x in phases]
-    for n in (0, 1, 2, 3, 5):
-        share = sum(count is None or count > n for count in counts) / 600
-        assert share <= float(coarse[1].rest[n]) / (2 * np.pi) + 0.01
-        assert share >= float(coarse[1].rest[n]) / (2 * np.pi) - 0.05
-
-
 @pytest.mark.slow
 def test_the_coarse_certificate_is_accepted(coarse):
+    assert oracle(coarse[1], random.Random(1)) == []
     report = check(json.dumps(coarse[0]))
     assert [claim.verdict for claim in report.claims] == [Verdict.VERIFIED, Verdict.REFUTED]
 
@@ -497,11 +433,11 @@ def test_cells_begin_after_the_last_zero_of_the_sine_and_before_the_impacts(coar
     index, cell = next(
         (index, cell)
         for index, cell in enumerate(cells)
-        if half_turns(derived[cell["branch"]].begin) < half_turns(cell["after"])
+        if half_turns(derived[cell["branch"]].times[0]) < half_turns(cell["after"])
     )
     branch = derived[cell["branch"]]
-    late = (min(map(Fraction, cell["times"])) * UNIT + min(branch.ends)) / 2
-    for time, message in ((branch.begin, "one sign"), (late, "not excluded")):
+    late = (min(map(Fraction, cell["times"])) * UNIT + min(end for _, end in branch.windows)) / 2
+    for time, message in ((branch.times[0], "one sign"), (late, "not excluded")):
         refused(
             coarse,
             derived,
@@ -535,7 +471,8 @@ def test_the_figure_draws_what_is_proved(coarse):
     assert 2 * np.pi - 3 * left < covered < 2 * np.pi
     assert all(0 <= low < high <= 2 * np.pi for low, high, _ in drawn)
     for low, high, count in drawn:
-        assert impacts_until_stuck(0.3 * low + 0.7 * high) <= count
+        steps = impacts_before_rest(PAPER.eta, PAPER.nu, 0.3 * low + 0.7 * high, count)
+        assert steps is not None and steps <= count
 
 
 # -- images beside phase 0 -----------------------------------------------------------------------
@@ -695,11 +632,11 @@ def test_stability_needs_an_impact_inside_the_arc_and_at_the_printed_phase(arc, 
 
 
 def test_flights_from_beside_the_separation_phase_land_where_the_mass_sticks():
-    """By marching: phases from phi_s on to 2 pi + 0.65 stick next; so G3 by brute force."""
+    """By the oracle: phases from phi_s on to 2 pi + 0.65 stick next; so G3 by brute force."""
     leave = float(reference.separation_phase(ETA, NU))
     for beside in (1e-9, 1e-5, 0.01, 0.2, 0.89):
-        assert impacts_until_stuck((leave + beside) % (2 * np.pi), 3) == 1
-    assert impacts_until_stuck((leave + 0.9) % (2 * np.pi), 3) == 2
+        assert impacts_before_rest(PAPER.eta, PAPER.nu, (leave + beside) % TURN, 3) == 1
+    assert impacts_before_rest(PAPER.eta, PAPER.nu, (leave + 0.9) % TURN, 3) == 2
 
 
 def shift(low="1.1", high="1.49"):

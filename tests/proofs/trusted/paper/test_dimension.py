@@ -23,7 +23,6 @@ from proofs.trusted.verify import check
 from tests.proofs.trusted.paper import periodic_dimension
 
 DIGITS = 5
-NEAR = Fraction(1, 10**8)  # of the periodic orbits that are taken
 SLOPES = (Fraction(2), Fraction(9))
 LEFT, RIGHT = (Fraction("1.1"), Fraction("1.15")), (Fraction("1.27"), Fraction("1.32"))
 HULL = (LEFT[0], RIGHT[1])
@@ -52,21 +51,6 @@ def decide(found, of=PAPER):
 
 
 # -- the numbers -----------------------------------------------------------------------------------
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("words", "longest", "read"),
-    [
-        pytest.param(FULL, 6, periodic_dimension.every, marks=pytest.mark.slow),
-        pytest.param(WITHOUT_000, 8, periodic_dimension.without_000, marks=pytest.mark.slow),
-        (WITHOUT_000, 4, periodic_dimension.blocks),
-    ],
-)
-def test_contains_the_dimension_by_periodic_orbits(words, longest, read):
-    low, high = one(Repeller, words=words).dimension
-    assert low - NEAR < periodic_dimension.dimension(longest, read) < high + NEAR
-    assert high - low < Fraction(1, 10**DIGITS)
 
 
 @pytest.mark.slow

@@ -5,6 +5,7 @@ At eta = 0.21, nu = -0.2 the circle has ten pieces; there all is proved and deri
 
 import copy
 import math
+import random
 import re
 from dataclasses import replace
 from fractions import Fraction as F
@@ -22,7 +23,7 @@ from proofs.trusted.certificate import Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s34_circle.cycles import Coding, Cycles, Outer
-from proofs.trusted.paper.s34_circle.entropy import EntropyBound
+from proofs.trusted.paper.s34_circle.entropy import EntropyBound, Weighted
 from proofs.trusted.paper.s34_circle.expansion import (
     Expansion,
     beside,
@@ -31,14 +32,13 @@ from proofs.trusted.paper.s34_circle.expansion import (
 )
 from proofs.trusted.paper.s34_circle.grazing import Grazing
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts
-from proofs.trusted.paper.s34_circle.laps import EntropyRange, OuterGraph, entropy_range
+from proofs.trusted.paper.s34_circle.laps import EntropyRange, entropy_range
 from proofs.trusted.paper.s34_circle.pieces import Pieces
 from proofs.trusted.paper.s34_circle.roots import Between
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
-from tests.oracles.adapter import view
-from tests.oracles.laps import graze
-from tests.oracles.motion import TURN, Impact, inside, next_impact
+from tests.oracles.judge import oracle
+from tests.oracles.motion import TURN, Impact, next_impact
 from tests.proofs.trusted.paper.steps import add, apply, derive, edited
 
 OF = replace(PAPER, eta=F("0.21"))
@@ -64,16 +64,25 @@ def only(kind, known):
 
 
 @pytest.mark.slow
-def test_prover_and_checker_agree(evidence, known):
-    ((name, own),) = evidence.proofs["G17"]
-    found = known[name]
-    assert (own.sentence, own.entropy) == (found.sentence, found.entropy)
-    decision = find("G17").decide(OF, [found])
-    assert decision.verdict is Verdict.VERIFIED
-    assert decision.margin > F("0.009")
+def test_g17_and_g18_rest_on_all_of_their_conclusions(evidence, known):
+    decision = find("G17").decide(OF, [known[name] for name, _ in evidence.proofs["G17"]])
+    assert decision.verdict is Verdict.VERIFIED and decision.margin > F("0.009")
+    found = [known[name] for name, _ in evidence.proofs["G18"]]
+    for few, verdict in ((found, "VERIFIED"), *((x, "UNDECIDED") for x in (found[:1], found[1:2]))):
+        assert find("G18").decide(OF, few).verdict.value == verdict
 
 
 # -- against brute force ---------------------------------------------------------------------------
+
+
+@pytest.mark.slow
+def test_what_is_derived_is_what_the_oracles_see(known):
+    """Grazes, square roots, pieces, how lengths grow, periodic orbits."""
+    between = Between(*firsts(only(Pieces, known)[0]))
+    assert between.full == 2 and "each infinite sequence of them" in between.sentence
+    judged = (Grazing, EntropyBound, EntropyRange, Expansion, Cycles)
+    for found in (x for kind in judged for x in only(kind, known)):
+        assert oracle(found, random.Random(1), OF) == []
 
 
 @cache
@@ -114,58 +123,6 @@ def test_words_counted_by_brute_force_grow_as_is_proved(known):
     assert counts[-1] > low**8
 
 
-def test_f_jumps_where_it_is_said_to(known):
-    for one in only(Grazing, known):
-        low, high = one.phases
-        near, far = (low, high) if one.below else (high, low)
-        left = next_impact(OF.eta, OF.nu, near, 7000.0)
-        assert float(left.time) < one.time[1]
-        limit = float(one.graze[1])
-        assert float(left.lifted) - TURN * one.turn < limit
-        right = next_impact(OF.eta, OF.nu, far, 7000.0)
-        if one.landing is None:
-            assert right == "touches"
-        else:
-            assert one.landing[0] < float(right.time) < one.landing[1]
-
-
-def test_the_square_root_is_seen(known):
-    """f_g - f is about a sqrt(d) at a small distance d from phi_g, by brute force."""
-    for found in only(Grazing, known):
-        phase, time = map(float, graze(view(found))[:2])
-        size = 1e-8
-        near = F(phase - size if found.below else phase + size)
-        drop = phase + time - TURN * found.turn - image(near)
-        assert abs(drop / math.sqrt(size) / float(found.root[0]) - 1) < 0.01
-
-
-def test_lengths_grow_along_orbits_as_is_proved(known):
-    """|(f^n)'| by brute force, as long as orbits of phases over J stay in its pieces."""
-    (found,) = only(Expansion, known)
-    low, high = map(float, found.pieces.region)
-    ends = [tuple(map(float, piece.phases)) for piece in found.pieces.monotone]
-    longest = 0
-    for k in range(60):
-        phase, size, steps = low + (high - low) * (k + 0.5) / 60, 1.0, 0
-        while any(first < phase < last for first, last in ends) and steps < 12:
-            now = next_impact(OF.eta, OF.nu, F(phase), 7000.0)
-            size, steps = size * abs(float(now.slope)), steps + 1
-            assert size >= float(found.least * found.rate**steps)
-            phase = now.phase
-        longest = max(longest, steps)
-    assert longest > 3
-
-
-def test_prover_and_checker_agree_on_the_expansion(evidence, known):
-    own = [conclusion for _, conclusion in evidence.proofs["G18"]]
-    found = [known[name] for name, _ in evidence.proofs["G18"]]
-    decisions = [find("G18").decide(OF, each) for each in (own, found)]
-    assert decisions[0].theorem == decisions[1].theorem
-    assert [each.verdict for each in decisions] == [Verdict.VERIFIED] * 2
-    for few in (own[:1], own[1:2], []):
-        assert find("G18").decide(OF, few).verdict is Verdict.UNDECIDED
-
-
 # -- narrow grazes ---------------------------------------------------------------------------------
 
 
@@ -176,20 +133,10 @@ def roots():
 
 
 def test_the_square_roots_at_the_ends_of_the_first_branches(roots):
-    """Against Newton's method on (10), in 240 bits, and f by brute force at distances 1e-8."""
     found = derive(roots.steps, PAPER)
-    own = [conclusion for _, conclusion in roots.proofs["H18"]]
-    assert own == [found[name] for name, _ in roots.proofs["H18"]]
+    own = [found[name] for name, _ in roots.proofs["H18"]]
     for one, near in zip(own, ("1.2", "1.36", "1.5", "1.57"), strict=True):
-        phase, time, steep, bend = graze(view(one))
-        assert inside(phase, one.phases)
-        assert inside(time, one.time)
-        assert inside((2 * steep / bend).sqrt(), one.root)
-        assert abs(float(phase) - float(near)) < 0.005
-        assert one.below
-        for side, limit, turn in ((-1, one.graze, one.turn), (1, one.other, one.beyond)):
-            beside = next_impact(PAPER.eta, PAPER.nu, F(float(phase)) + F(side, 10**12), 10**4)
-            assert abs(float(beside.lifted) - TURN * turn - float(limit[0])) < 1e-5
+        assert abs(one.phases[0] - F(near)) < F(1, 200) and one.below
     decision = find("H18").decide(PAPER, own)
     assert decision.verdict is Verdict.VERIFIED
     assert all(x[1] - x[0] < F(1, 10**9) for x in decision.quantities.values())
@@ -219,24 +166,6 @@ def test_h18_needs_each_of_its_grazes_narrowly(roots):
 def firsts(pieces):
     """The pieces of the circle, and the grazes at the ends of the first ones, where f increases."""
     return pieces, tuple(x for x in pieces.arcs if isinstance(x, Grazing) and x.below)
-
-
-def test_f_between_grazes_and_the_horseshoe_that_they_carry(known):
-    between = Between(*firsts(only(Pieces, known)[0]))
-    for (low, high), one, two in zip(
-        between.images, between.grazes, between.grazes[1:], strict=False
-    ):
-        inside = F(float(one.phases[1])) + F(1, 10**9), F(float(two.phases[0])) - F(1, 10**9)
-        first, last = map(image, inside)
-        assert float(low[0]) - 1e-3 < first < last < float(high[1]) + 1e-3
-        assert float(low[1]) < image(sum(inside) / 2) < float(high[0])
-    ends = [float(x.phases[0]) for x in between.grazes]
-    images = [(float(low[0]), float(high[0])) for low, high in between.images]
-    fulls = [
-        m for m in range(1, len(ends)) if all(a < ends[0] and ends[m] < b for a, b in images[:m])
-    ]
-    assert between.full == max(fulls) == 2
-    assert "each infinite sequence of them" in between.sentence
 
 
 def test_pieces_between_other_grazes_are_not_told_of(known, roots):
@@ -288,7 +217,7 @@ GRAZING_LIES = {
     ("phases in reverse", "reversed"): lambda w: w["phases"].reverse(),
     ("a later window", "not in order"): lambda w: w.update(turn=add(1)(w["turn"])),
     ("an earlier window", "earlier impact"): lambda w: w.update(turn=add(-1)(w["turn"])),
-    ("window 0", "whole number"): lambda w: w.update(turn="0"),
+    ("window 0", "an integer"): lambda w: w.update(turn="0"),
     ("a later impact than the next", "earlier impact"): lambda w: w.update(
         beyond=add(1)(w["beyond"])
     ),
@@ -362,15 +291,15 @@ GRAPH_LIES = {
     ),
     ("a weight 0", "weights > 0"): lambda w: w["weights"].__setitem__(0, "0"),
     ("a state left out", "multiply the weights"): lambda w: (w["states"].pop(), w["weights"].pop()),
-    ("no state with all phases", "no state contains"): lambda w: w.update(
-        states=[[low, str(min(F(high), F(2)))] for low, high in w["states"]]
-    ),
     ("a short vector", "48 entries"): lambda w: w["weights"].pop(),
     ("an image left out", "no known image"): lambda w: w["images"].pop(),
     ("an image moved", "signs"): lambda w: w["images"][0].update(
         time=[add(1)(x) for x in w["images"][0]["time"]]
     ),
     ("an image of no phase", "on no branch"): lambda w: w["images"][0].update(phase="3"),
+    ("no state with all phases", "no state contains"): lambda w: w.update(
+        states=[[low, str(min(F(high), F(2)))] for low, high in w["states"]]
+    ),
 }
 
 
@@ -510,7 +439,7 @@ CYCLES_LIES = {
     ("a smaller radius", "close enough"): lambda w: w.update(radius="1/1000000000000"),
     ("a larger radius", "inside of a branch"): lambda w: w.update(radius="1"),
     ("no radius", "no radius"): lambda w: w.update(radius="0"),
-    ("periods too long", "no radius"): lambda w: w.update(longest="9"),
+    ("periods too long", "an integer"): lambda w: w.update(longest="9"),
     ("periods too short", "proved different"): lambda w: w.update(longest="2"),
     ("an image left out", "no known image"): lambda w: w["images"].pop(),
     ("a point left out", "close enough"): lambda w: w["orbits"][-1].pop(),
@@ -560,9 +489,10 @@ def test_an_orbit_that_is_not_given_is_left_open(steps, known):
 
 def test_an_expansion_and_a_range_of_other_pieces_are_no_coding(known):
     (found,), (bounds,) = only(Expansion, known), only(EntropyRange, known)
+    cuts, end = found.pieces.arcs[2].cuts, found.pieces.arcs[2].times[1]
     arcs = (
         *found.pieces.arcs[:2],
-        replace(found.pieces.arcs[2], begin=F(1)),
+        replace(found.pieces.arcs[2], windows=((F(1), end),) * (len(cuts) - 1)),
         *found.pieces.arcs[3:],
     )
     other = replace(found, pieces=replace(found.pieces, arcs=arcs))
@@ -584,8 +514,8 @@ def test_a_graze_that_only_one_half_has_is_none(known):
     """Parts that take turns: a branch where a graze should be, and the other way round."""
     (pieces,) = only(Pieces, known)
     low, high, *rest = pieces.arcs
-    first = replace(low, cuts=(low.cuts[0], F(1)), ends=low.ends[:1])
-    last = replace(low, cuts=(F(1), low.cuts[-1]), ends=low.ends[:1])
+    first = replace(low, cuts=(low.cuts[0], F(1)), windows=low.windows[:1])
+    last = replace(low, cuts=(F(1), low.cuts[-1]), windows=low.windows[:1])
     with pytest.raises(Unproved, match="take turns"):
         replace(pieces, arcs=(first, last, high, *rest))
     with pytest.raises(Unproved, match="adjoin it"):
@@ -610,7 +540,7 @@ def test_images_lie_between_those_of_the_ends_whatever_the_enclosures(known):
 
 def test_images_longer_than_the_circle_are_refused(known):
     (pieces,), (found,) = only(Pieces, known), only(EntropyRange, known)
-    whole = OuterGraph([pieces.region], [F(1)], F(100))
+    whole = Weighted([pieces.region], [F(1)], F(100))
     assert entropy_range(pieces, found.lower, lambda _: (F(1), F(2)), whole).growth == 100
     for image in ((F(-5), F(1)), (F(1), F(7))):
         with pytest.raises(Unproved, match="longer than the circle"):

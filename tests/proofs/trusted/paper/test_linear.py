@@ -17,6 +17,7 @@ from proofs.trusted.paper.s32_sets.moran import MoranRoot
 from proofs.trusted.paper.s32_sets.subshift import words
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
+from tests.oracles.judge import oracle
 
 DECIDE = {row.id: row.decide for row in (*linear.ROWS, *linear_steps.ROWS)}
 EXACT = (Fraction(4, 21), Fraction(5, 21))
@@ -134,6 +135,7 @@ def at(slopes, ratios=None):
     return replace(PAPER, slopes=tuple(map(Fraction, slopes)), ratios=pair, printed_s0=None)
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("slopes", "ratios", "expected"),
     [
@@ -195,33 +197,6 @@ def test_tiny_ratios_end_at_once(claim, power):
 # -- the lemma and the numbers ---------------------------------------------------------------------
 
 
-@BOTH
-def test_theorem_on_random_intervals(ratios):
-    """|J|^s is at least the sum over the cylinders in J, with equality for J = I."""
-    s = float(ROOTS[ratios])
-    parts = [(float(a), float(b)) for w, (a, b) in cylinders(ratios, 8).items() if len(w) == 8]
-    powers = [(b - a) ** s for a, b in parts]
-    assert sum(powers) == pytest.approx(float(length(I)) ** s)
-    draw = random.Random(4)
-    ends = [x for part in parts for x in part]
-    for _ in range(500):
-        low, high = sorted(draw.sample(ends, 2))
-        total = sum(p for p, (a, b) in zip(powers, parts, strict=True) if low <= a and b <= high)
-        assert (high - low) ** s >= total * (1 - 1e-9)
-
-
-@BOTH
-def test_covers_of_the_theorem(ratios):
-    """(4): intervals as much longer as allowed, at n = 0, 1, 2."""
-    s, size = float(ROOTS[ratios]), float(length(I))
-    for n, epsilon in product(range(3), (1e-3, 0.1, 1.0)):
-        longest = float(ratios[1]) ** n * size
-        more = min((epsilon / 2 ** (n + 1)) ** (1 / s), longest * (1 - float(ratios[1])))
-        level = [float(length(x)) for w, x in cylinders(ratios, n + 1).items() if len(w) == n + 1]
-        assert max(level) + more <= longest * (1 + 1e-12)
-        assert sum((x + more) ** s for x in level) <= size**s + epsilon
-
-
 @pytest.fixture(scope="module")
 def evidence():
     """What H12 and H14 are decided by."""
@@ -241,37 +216,16 @@ REACH = Fraction(1, 10**19)
 ROOT = ROOTS[EXACT] - REACH, ROOTS[EXACT] + REACH
 
 
-def test_measure_by_arb(evidence):
-    ctx.prec = 200
-    (proved,) = evidence["H12"]
-    low, high = map(exact_arb, proved.root)
-    r0, r1 = map(exact_arb, proved.ratios)
-    assert r0**low + r1**low > 1 > r0**high + r1**high
-    value, slack = exact_arb(length(I)) ** exact_arb(ROOTS[EXACT]), arb("1e-19")
-    for found, digits in ((proved, 29), (LinearDimension(EXACT, I, ROOT), 17)):
+def test_measures_and_excesses_are_those_the_oracles_see(evidence):
+    (measure,), excesses = evidence["H12"], evidence["H14"]
+    rough = LinearDimension(EXACT, I, ROOT)
+    assert [found.ratios for found in excesses] == [EXACT, ROUNDED]
+    assert {found.level for found in excesses} == {1}
+    for found, digits in ((measure, 29), (rough, 17)):
         assert isinstance(found, LinearDimension)
-        low, high = map(exact_arb, found.measure)
-        assert low - slack < value < high + slack
         assert length(found.measure) < Fraction(1, 10**digits)
-
-
-def test_excess_by_arb(evidence):
-    """(|L| + d)^s - |L|^s - d > 0 for all L of levels 2 to 5, and d up to the greatest."""
-    ctx.prec = 200
-    proved = evidence["H14"]
-    assert [found.ratios for found in proved] == [EXACT, ROUNDED]
-    assert {found.level for found in proved} == {1}
-    for found in proved:
-        s, r1 = exact_arb(ROOTS[found.ratios]), found.ratios[1]
-        for n in range(1, 5):
-            parts = [x for w, x in cylinders(found.ratios, n + 1).items() if len(w) == n + 1]
-            for share in (Fraction(1, 10**9), Fraction(1, 2), Fraction(1)):
-                d = share * (r1**n - r1 ** (n + 1)) / 2 ** (n + 1)
-                for part in map(length, parts):
-                    more = exact_arb(part + d) ** s - exact_arb(part) ** s - exact_arb(d)
-                    assert more > 0
-                outside = max(map(length, parts)) + d > r1**n * length(I)
-                assert outside == (n == 1 and share > 4 * length(I))
+    for found in (measure, rough, *excesses):
+        assert oracle(found, random.Random(1), PAPER) == []
 
 
 def test_excess_in_a_long_interval_begins_at_a_later_level():
