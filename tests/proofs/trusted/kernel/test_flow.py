@@ -17,11 +17,12 @@ import sympy
 
 from proofs import System
 from proofs.trusted.certificate import SCHEMA, Malformed, Reader, render
-from proofs.trusted.kernel.arithmetic import Unproved, rational
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
 from proofs.trusted.kernel.enclose import centre_of, enclosed, point_box
 from proofs.trusted.kernel.lohner import Solutions, orthogonal
 from proofs.trusted.kernel.maps import read_map
 from proofs.trusted.kernel.meter import Exhausted, metered
+from proofs.trusted.kernel.series import Series
 from proofs.trusted.verify import Rejected, check
 from tests.effort import examples
 from tests.oracles.ode import LONG, MANY, Solver
@@ -224,6 +225,29 @@ def test_truths(data, box, first):
             assert low - 1e-28 <= wanted <= high + 1e-28
             if box is ONE and "parameters" not in data:
                 assert high - low < mpmath.mpf(10) ** -(14 if bits == 64 else 50)
+
+
+@pytest.mark.parametrize("rate", ["x**2", "x*x*x/3 - x"])
+def test_coefficients_contain_the_exact_ones(rate):
+    """From points whose products are rounded; by Leibniz, in fractions."""
+    program, rng, orders = flow(line(rate, {"time": "1"})).equation.plain, random.Random(rate), 8
+
+    def product(a, b):
+        return [sum(a[i] * b[k - i] for i in range(k + 1)) for k in range(len(a))]
+
+    for _ in range(20):
+        m = rng.randrange(2**63, 2**64) | 1
+        x, one = Enclosure(m, m, 64), Enclosure(0, 0, 64)
+        exact = [Fraction(m, 2**64)]
+        series = Series(program, [one, x, one], Fraction(1, 4))
+        for k in range(orders):
+            square = product(exact, exact)
+            cube = product(square, exact)
+            value = square[k] if rate == "x**2" else cube[k] / 3 - exact[k]
+            exact.append(value / 4 / (k + 1))
+            low, high = series.coefficients(k + 1)[0].range
+            assert low <= exact[-1] <= high
+            assert high - low < Fraction(1, 2**56)
 
 
 CURVES = {  # solutions from x = 1 in closed form, and x' = f
