@@ -13,13 +13,16 @@ from functools import cache
 import mpmath
 import numpy as np
 import pytest
+import sympy
 
 from proofs import System
 from proofs.trusted.certificate import SCHEMA, Malformed, Reader, render
-from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
 from proofs.trusted.kernel.enclose import centre_of, enclosed, point_box
+from proofs.trusted.kernel.lohner import Solutions, orthogonal
 from proofs.trusted.kernel.maps import read_map
 from proofs.trusted.kernel.meter import Exhausted, metered
+from proofs.trusted.kernel.series import Series
 from proofs.trusted.verify import Rejected, check
 from tests.effort import examples
 from tests.oracles.ode import LONG, MANY, Solver
@@ -183,6 +186,12 @@ TRUTHS = [  # the first value, in closed form
     ("a fall", FALL, ONE, lambda m: 1),
     ("a section left upward", circle(end=section("x"), values=["t"]), ONE, lambda m: m.pi),
     ("left downward", circle(end=section("-x"), values=["t"]), ONE, lambda m: 2 * m.pi),
+    (
+        "left downward, but for rounding",
+        circle(start=["sin(a)", "-1"], end=section("x - sin(a)"), values=["t"]),
+        ONE,
+        lambda m: 2 * m.pi,
+    ),
     ("the third", circle(end=section("x", "-", 3), values=["t"]), ONE, lambda m: 5 * m.pi),
     ("the second up", circle(end=section("x", "+", 2), values=["t"]), ONE, lambda m: 4 * m.pi),
     (
@@ -216,6 +225,89 @@ def test_truths(data, box, first):
             assert low - 1e-28 <= wanted <= high + 1e-28
             if box is ONE and "parameters" not in data:
                 assert high - low < mpmath.mpf(10) ** -(14 if bits == 64 else 50)
+
+
+@pytest.mark.parametrize("rate", ["x**2", "x*x*x/3 - x"])
+def test_coefficients_contain_the_exact_ones(rate):
+    """From points whose products are rounded; by Leibniz, in fractions."""
+    program, rng, orders = flow(line(rate, {"time": "1"})).equation.plain, random.Random(rate), 8
+
+    def product(a, b):
+        return [sum(a[i] * b[k - i] for i in range(k + 1)) for k in range(len(a))]
+
+    for _ in range(20):
+        m = rng.randrange(2**63, 2**64) | 1
+        x, one = Enclosure(m, m, 64), Enclosure(0, 0, 64)
+        exact = [Fraction(m, 2**64)]
+        series = Series(program, [one, x, one], Fraction(1, 4))
+        for k in range(orders):
+            square = product(exact, exact)
+            cube = product(square, exact)
+            value = square[k] if rate == "x**2" else cube[k] / 3 - exact[k]
+            exact.append(value / 4 / (k + 1))
+            low, high = series.coefficients(k + 1)[0].range
+            assert low <= exact[-1] <= high
+            assert high - low < Fraction(1, 2**56)
+
+
+CURVES = {  # solutions from x = 1 in closed form, and x' = f
+    "x": lambda t: mpmath.exp(t),
+    "x**2": lambda t: 1 / (1 - t),
+    "-x**3": lambda t: 1 / mpmath.sqrt(1 + 2 * t),
+    "cos(t)*x": lambda t: mpmath.exp(mpmath.sin(t)),
+}
+
+
+@pytest.mark.parametrize("rate", CURVES)
+@pytest.mark.parametrize("order", [3, 5])
+def test_a_step_of_low_order_is_right_by_its_rest(rate, order):
+    solutions = Solutions.of(
+        flow(line(rate, {"time": "1"})).equation, enclosed(point_box([Fraction(1)]), 96)
+    )
+    one = solutions.w[0]
+    first, proved = solutions.begin([one], [[one]]), 0
+    for h in (Fraction(1, 64), Fraction(1, 8), Fraction(1, 4)):
+        step = solutions.step(first, Fraction(0), h, order)
+        if step is None:
+            continue
+        proved += 1
+        ends = [(solutions.after(step).states(solutions.q), h)]
+        for part in (Fraction(1, 3), Fraction(1)):
+            states = solutions.at(step, rational(part, 96))
+            ends += [(each, part * h) for each in (states.all, states.middle, states.end)]
+        for (entry,), time_ in ends:
+            with mpmath.workdps(30):
+                low, high = (mpmath.mpf(end.numerator) / end.denominator for end in entry.range)
+                value = CURVES[rate](mpmath.mpf(time_.numerator) / time_.denominator)
+            assert low <= value <= high
+    assert proved
+
+
+def test_a_step_beyond_blow_up_is_not_proved():
+    solutions = Solutions.of(
+        flow(line("x**2", {"time": "1"})).equation, enclosed(point_box([Fraction(1)]), 64)
+    )
+    one = solutions.w[0]
+    for h in (Fraction(1), Fraction(3, 2), Fraction(4)):
+        for order in (1, 2, 8, 20):
+            first = solutions.begin([one], [[one]])
+            assert solutions.step(first, Fraction(0), h, order) is None
+
+
+def test_the_inverse_of_a_frame_is_enclosed():
+    rng = random.Random("frames")
+    for n in (1, 2, 3, 5):
+        rows = [[Fraction(rng.randrange(-99, 100), 7) for _ in range(n)] for _ in range(n)]
+        widths = [rational(Fraction(0), 256)] * n
+        frame, inverse = orthogonal([[rational(x, 256) for x in row] for row in rows], widths)
+        exact = sympy.Matrix(
+            [[sympy.Rational(*x.range[0].as_integer_ratio()) for x in row] for row in frame]
+        ).inv()
+        for i, row in enumerate(inverse):
+            for j, x in enumerate(row):
+                low, high = (sympy.Rational(*end.as_integer_ratio()) for end in x.range)
+                assert low <= exact[i, j] <= high
+                assert high - low < sympy.Rational(1, 2**40)
 
 
 ON, NO_STEP = "on both sides of the section", "it is not proved that the solutions go on"
