@@ -18,7 +18,7 @@ from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
 from proofs.motion.witness import HORIZON
 from proofs.search.evidence import FAILED, concluded
-from proofs.search.s33_rectangles import Sets, image_phases, overshoot, state_after
+from proofs.search.s33_rectangles import Sets, image_phases, state_after
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -148,9 +148,13 @@ class ReboundProver:
 
     def horseshoe(self, at: Place, sets: Sets, cuts: Sequence[Fraction] = ()) -> str:
         """Prove that F maps both rectangles across both."""
-        short = -overshoot((*sets[0], *sets[1]), image_phases(at, self.velocities))
-        if short >= 0:
-            raise Unproved(f"an edge seems to fall short by {short:.6g}, or to stick")
+        images = image_phases(at, self.velocities)
+        for ends in sets:
+            known = [image for image in map(images, ends) if image is not None]
+            low, high = min(known, default=(0, 0)), max(known, default=(0, 0))  # f may fall
+            short = float(max(low[1] - sets[0][0], sets[1][1] - high[0]))
+            if len(known) < 2 or short >= 0:
+                raise Unproved(f"an edge seems to fall short by {short:.6g}, or to stick")
         with self.attempt():
             return self.across(self.pair(at, sets, cuts), ALL, PLAIN)
 

@@ -20,6 +20,7 @@ _BLIND = {
     "_proved",
 }  # the checker's machinery inside of conclusions
 _MORE = {  # properties that sentences or rows rest on
+    "Rectangle": ("parts",),
     "Separation": ("returns",),
     "EntropyBound": ("entropy",),
     "Between": ("images", "full"),

@@ -60,9 +60,11 @@ def true_views():
 
 def by_hand():
     """Conclusions that none of the committed certificates needs."""
+    from proofs.trusted.paper.beyond.attractors import OnlyTouches
     from proofs.trusted.paper.s32_sets.moran import NoGap
+    from proofs.trusted.parameters import Place
 
-    return NoGap((F(1, 2), F(3, 5))), *curves()
+    return NoGap((F(1, 2), F(3, 5))), OnlyTouches(Place.plastic(F(1), F(-2))), *curves()
 
 
 def test_every_class_of_conclusions_has_an_oracle_and_is_proved_and_made_false():
@@ -446,6 +448,7 @@ FALSE = {
     "AtRest": [put("nu", F(1)), put("nu", F("-0.2"))],
     "Leaves": [put("nu", F("0.01"))],
     "NeverSticks": [put("nu", F(1)), put("eta", F("0.01"))],
+    "OnlyTouches": [put("nu", F(1)), put("eta", F("0.9"))],
     "FlightsEnd": [put("nu", F("-0.2"))],
     "ComesToRest": [put("nu", F(1)), put("nu", F("-0.2")), put("epsilon", F("0.999"))],
     "ReturningMotion": [

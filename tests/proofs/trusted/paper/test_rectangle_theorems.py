@@ -264,6 +264,7 @@ def test_golden_mean():
     assert "without 22" in golden().sentence and str(PRINTED) in golden().sentence
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     "change",
     [
@@ -276,7 +277,10 @@ def test_golden_mean():
         {"part": printed(("1.27", "1.293"), "1.06", "1.14")},
         {"part": replace(PART, turns=(1,))},
         {"part": printed(("1.27", "1.31"), "1.06", "1.17")},  # V1 does not reach it
-        {"part": printed(("1.27", "1.325"), "1.06", "1.17")},
+        {
+            "first": printed(PAPER.left, "1.06", "1.34"),
+            "part": printed(("1.27", "1.325"), "1.06", "1.17"),
+        },
         {"part": replace(PART, box=(PART.box[0], GAMMA))},
         {"part": moved(PART, OTHER)},
         {"second": printed(PAPER.right, "1.06", "1.30", derivative=((pair_of(-1, 6),) * 2,) * 2)},
