@@ -5,6 +5,7 @@ from itertools import product
 from math import inf
 from types import SimpleNamespace
 
+from tests.oracles import planar
 from tests.oracles.motion import TURN, Impact, ball, flight, inside, inside_mod
 from tests.oracles.plastic import between
 
@@ -39,6 +40,8 @@ def _entries(found, bounds):
 
 def differential(view, rng):
     """All states are possible; phases, velocities and derivatives of their images."""
+    if planar.is_of_a_file(view):
+        return planar.differential(view, rng)
     return _map_faults(view, rng, view.region, view.values, view.matrix)
 
 
@@ -65,6 +68,8 @@ def _map_faults(view, rng, region, image, matrix):
 
 def rectangle(view, rng):
     """The same on the parts of a rectangle, with the images of its left and right edges."""
+    if planar.is_of_a_file(view):
+        return planar.rectangle(view, rng)
     (low, high), velocities = view.region
     told, reached = [], low
     for part in view.parts:
@@ -78,9 +83,9 @@ def rectangle(view, rng):
 
 
 def horseshoe(view, rng):
-    """What it says of V1 and V2 is true, if it is about the oscillator."""
-    if not hasattr(view, "nu"):
-        return []
+    """What it says of its sets is true."""
+    if planar.is_of_a_file(view):
+        return planar.horseshoe(view, rng)
     sets = [SimpleNamespace(left=a[0], right=b[0], velocities=a[1]) for a, b in [view.boxes[:2]]]
     if len(view.boxes) == 4:
         sets = [SimpleNamespace(after_first=view.boxes[:2], after_second=view.boxes[2:])]
@@ -89,6 +94,8 @@ def horseshoe(view, rng):
 
 def barred_word(view, rng):
     """No orbit follows the word, and the last image falls short by as much as is said."""
+    if planar.is_of_a_file(view):
+        return planar.barred_word(view, rng)
     short = _shortfall(view, view.word, rng)
     if short is None or short >= float(view.short) - 1e-9:
         return []
