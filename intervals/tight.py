@@ -34,10 +34,7 @@ def total(a: Rows, b: Rows) -> Rows:
 def product(a: Rows, b: Rows) -> Rows:
     """Return the least rows that contain x y for x in A, y in B."""
     require_nearest()
-    x, y = _corners(a, b)
-    p, error = two_product(x, y)
-    known = _moderate(p) & _moderate(x) & _moderate(y)
-    return _hull(p, np.where((x == 0.0) | (y == 0.0), 0.0, np.where(known, error, np.nan)))
+    return _hull(*_products(*_corners(a, b)))
 
 
 def quotient(a: Rows, b: Rows) -> Rows:
@@ -48,7 +45,9 @@ def quotient(a: Rows, b: Rows) -> Rows:
     p, error = two_product(q, y)
     rest = np.copysign(1.0, y) * ((x - p) - error)
     known = _moderate(p) & _moderate(q) & _moderate(x) & _moderate(y)
-    return _hull(q, np.where(x == 0.0, 0.0, np.where(known, rest, np.nan)))
+    if not all_of(known):
+        rest = np.where(x == 0.0, 0.0, np.where(known, rest, np.nan))
+    return _hull(q, rest)
 
 
 def square_root(rows: Rows) -> Rows:
@@ -70,9 +69,16 @@ def power(rows: Rows, n: int) -> Rows:
 
 
 def _above(x: Rows, y: Rows) -> Rows:
+    return _least(*_products(x, y))
+
+
+def _products(x: Rows, y: Rows) -> tuple[Rows, Rows]:
+    """Return fl(x y) and its error, NaN where that is not known."""
     p, error = two_product(x, y)
     known = _moderate(p) & _moderate(x) & _moderate(y)
-    return _least(p, np.where((x == 0.0) | (y == 0.0), 0.0, np.where(known, error, np.nan)))
+    if not all_of(known):
+        error = np.where((x == 0.0) | (y == 0.0), 0.0, np.where(known, error, np.nan))
+    return p, error
 
 
 def _corners(a: Rows, b: Rows) -> tuple[Rows, Rows]:
@@ -90,7 +96,8 @@ def _hull(values: Rows, errors: Rows) -> Rows:
 
     A value that is NaN stands for 0: see `rows`.
     """
-    values = np.where(np.isnan(values), 0.0, values)
+    if np.isnan(values).any():
+        values = np.where(np.isnan(values), 0.0, values)
     both, signed = np.stack((-values, values)), np.stack((-errors, errors))
     most = both.max(axis=1)
     return _least(most, np.where(both == most[:, np.newaxis], signed, -1.0).max(axis=1))

@@ -36,8 +36,9 @@ from proofs.theorem import Theorem
 from proofs.trusted.certificate import render
 from proofs.trusted.flights import LATEST
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.horseshoe import Horseshoe
 from proofs.trusted.numbers import TURN, Range, show, show_range
-from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe
+from proofs.trusted.paper.s33_restitution.horseshoes import restituting
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.slopes import SlopeRange
 
@@ -199,8 +200,9 @@ class Oscillator:
         at = Place.restituting(of.eta, of.nu, epsilon)
         prover = ReboundProver(of, Prover(self._system, digits, HORIZON))
         name = prover.horseshoe(at, (left, right))
-        found = prover.get(name, RectangleHorseshoe)
-        return _certified(of, prover.steps, {"N1": [(name, found)]}, digits)
+        found = prover.get(name, Horseshoe)
+        theorem = _certified(of, prover.steps, {"N1": [(name, found)]}, digits)
+        return Theorem((restituting(found),), theorem.certificate)
 
     def _parameters(self, left: Range, right: Range, gamma: Range | None = None) -> Parameters:
         eta, nu, one = self._system.eta, self._system.nu, Fraction(1)
@@ -229,8 +231,7 @@ def _answer(found: Image | Rebound, digits: int) -> Answer:
     values += [("flight", found.flight), ("phase", found.phase)]
     if isinstance(found, Rebound):
         values.append(("velocity", found.velocity))
-        entries = (entry for row in found.jacobian for entry in row)
-        values += zip(_DERIVATIVES, entries, strict=True)
+        values += zip(_DERIVATIVES, found.jacobian, strict=True)
     else:
         values.append(("slope", found.slope))
     bounds = tuple((name, Bounds(*ends, digits)) for name, ends in values)

@@ -14,21 +14,23 @@ from tempfile import TemporaryDirectory
 
 from proofs.__main__ import main
 from proofs.shell.trust import watched
+from proofs.trusted.rules import RULES
 
 ROOT = Path(__file__).parents[1]
 GENERATED = ["docs/api.md", "docs/systems.md"]
 BUDGETS = {
-    "proofs": 53_600,
-    "proofs/trusted": 20_900,
+    "proofs": 54_950,
+    "proofs/trusted": 21_250,
     "proofs/search, proofs/motion": 9_500,
-    "proofs/shell": 1_750,
+    "proofs/shell": 1_760,
     "proofs/benchmark": 1_880,
     "proofs/stress": 1_350,
-    "tests": 52_000,
-    "words of the docs": 12_000,  # of those that are written by hand, the README with them
+    "tests": 50_900,
+    "words of the docs": 12_100,  # of those that are written by hand, the README with them
+    "rules outside the kernel": 33,
     "loose modules": 9,  # of the package proofs
-    "tracked files": 1_040,
-    "headline": 5_900,  # lines of the files that run to check reports/horseshoe.json
+    "tracked files": 1_045,
+    "headline": 8_750,  # lines of the files that run to check reports/horseshoe.json
     "way of H2": 7_450,  # lines of the files that run to prove H2 and to check it
     "way of H2, files": 50,
 }
@@ -40,6 +42,9 @@ def counts():
     python = [path for path in tracked if path.endswith(".py")]
     found = {"tracked files": len(tracked)}
     found["words of the docs"] = sum(len((ROOT / x).read_text().split()) for x in _written(tracked))
+    found["rules outside the kernel"] = sum(
+        not place.startswith("kernel.") for place in RULES.values()
+    )
     found["loose modules"] = sum(path.count("/") == 1 and path[:7] == "proofs/" for path in python)
     for name in BUDGETS:
         folders = tuple(f"{folder}/" for folder in name.split(", "))

@@ -149,7 +149,8 @@ def machine_form(found: Image | PossibleImages | Rebound, places: int) -> Answer
     answer: Answer = {"flight": bounds(found.flight, places), "phase": bounds(found.phase, places)}
     if isinstance(found, Rebound):
         answer["velocity"] = bounds(found.velocity, places)
-        answer["jacobian"] = [[bounds(entry, places) for entry in row] for row in found.jacobian]
+        p, q, r, s = (bounds(entry, places) for entry in found.jacobian)
+        answer["jacobian"] = [[p, q], [r, s]]
     else:
         answer["slope"] = bounds(found.slope, places)
     answer["sticking"] = found.sticking

@@ -79,6 +79,9 @@ def _systems() -> list[Published]:
     ball = System.example("bouncing-ball")
     near = System.example("bouncing-ball", e=["0.4999", "0.5001"])
     slow = System.example("bouncing-ball", g="0.3", e="0.1")
+    hardly = {"e": ["0.499", "0.501"], "g": ["0.0999", "0.1001"]}
+    chaotic = System.example("bouncing-ball", **hardly)
+    calm = System.example("bouncing-ball", e=["0.498", "0.502"], g=["0.798", "0.802"])
     billiard = System.example("billiard")
     inelastic = System.example("billiard", e="0.95")
     lossy = System.example("billiard", a="2", e="0.8")
@@ -95,6 +98,11 @@ def _systems() -> list[Published]:
                 "orbits-1-range": lambda: near.orbits(1),
                 "stable": slow.stable,
                 "horseshoe": ball.horseshoe,
+                "stable-range": lambda: calm.stable(1),
+                "horseshoe-range": chaotic.horseshoe,
+                "branches": lambda: calm.branches(g=("0.7", "0.9")),
+                "folds": lambda: calm.folds(g=("0.6", "1"), e=("0.45", "0.5")),
+                "flips": lambda: calm.flips(g=("0.3", "0.9"), e=("0.45", "0.46")),
             },
             [
                 'Vogel and Linz (2011) write in their abstract: "Using extensive numerical '
@@ -103,7 +111,7 @@ def _systems() -> list[Published]:
                 "1/2 settles that there is an invariant set on which the exact map is chaotic. It "
                 "is no attractor, and the theorem says nothing about what most motions do.",
             ],
-            ["a horseshoe for all parameters of a box", "curves of the flip of periodic orbits"],
+            ["that the points of `folds` and `flips` are bifurcations: their normal forms"],
         ),
         _of(
             "billiard",

@@ -25,9 +25,15 @@ from proofs.trusted.equations import (
     launch_with_restitution,
     return_map_derivative,
 )
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.horseshoe import Horseshoe
+from proofs.trusted.kernel.rectangles import Rectangle
 from proofs.trusted.numbers import Range, show
-from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe
-from proofs.trusted.paper.s33_restitution.rebounds import RectangleMap
+from proofs.trusted.paper.s33_restitution.horseshoes import (
+    RectangleHorseshoe,
+    place_of,
+    restituting,
+)
 from proofs.trusted.paper.s33_restitution.rectangles import Strips
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verify import Report
@@ -76,9 +82,10 @@ class Window(NamedTuple):
 class Flights:
     """Flights with restitution in floating point, after states of a rectangle."""
 
-    def __init__(self, of: RectangleMap) -> None:
-        self.of, self.side = of, of.at.side
-        self.eta, self.nu, self.eps = (float(side[0]) for side in of.at.sides)
+    def __init__(self, of: Rectangle) -> None:
+        at = place_of(of)
+        self.of, self.side, (self.phases, self.velocities) = of, at.side, of.box
+        self.eta, self.nu, self.eps = (float(side[0]) for side in at.sides)
 
     def _at(self, state: State, time: float) -> tuple[Launch, Clock]:
         start = launch_with_restitution(
@@ -104,17 +111,17 @@ class Flights:
     def impact(self, state: State) -> float:
         """Return the time of the first impact, by Newton's method from the certificate's."""
         part = min(
-            self.of.parts, key=lambda each: abs(float(sum(each.phases, Fraction(0))) / 2 - state[0])
+            self.of.parts, key=lambda each: abs(float(sum(each.box[0], Fraction(0))) / 2 - state[0])
         )
-        time = float(sum(part.phase, Fraction(0))) / 2 + math.tau * part.turns - state[0]
+        time = float(sum(part.values[0])) / 2 + math.tau * part.turns[0] - state[0]
         for _ in range(20):
             time -= self.height(state, time) / self.height(state, time, 1)
         return time
 
     def window(self, room: float) -> Window:
         """Return how the states of the rectangle, and some around, come to their impact."""
-        a, b = self.of.phases[0] - _SLACK, self.of.phases[1] + _SLACK
-        d, e = self.of.velocities[0] - _SLACK, self.of.velocities[1] + _SLACK
+        a, b = self.phases[0] - _SLACK, self.phases[1] + _SLACK
+        d, e = self.velocities[0] - _SLACK, self.velocities[1] + _SLACK
         states = grid((a, b), (d, e))
         times = [self.impact(state) for state in states]
         lift = 4.0
@@ -140,7 +147,7 @@ class Flights:
 
     def bounds(self, window: Window) -> Bounds:
         """Return bounds on DF, for impacts at any time of the window."""
-        states = grid(self.of.phases, self.of.velocities)
+        states = grid(self.phases, self.velocities)
         times = steps(float(window.u), float(window.v), 8)
         entries = list(zip(*(self.derivative(*at) for at in product(states, times)), strict=True))
         largest = [_up(max(map(abs, entry)) * _STRICT) for entry in entries[1:]]
@@ -148,7 +155,7 @@ class Flights:
 
     def pieces(self) -> list[tuple[Range, Range]]:
         """Return pieces of the phases, and brackets of impact times that show the velocities."""
-        low, high = self.of.phases
+        low, high = self.phases
         count = 1
         while count <= _MOST:
             cuts = [low + (high - low) * i / count for i in range(count + 1)]
@@ -159,13 +166,13 @@ class Flights:
         raise NoHint("velocities of images are not seen to stay")
 
     def _bracket(self, phases: Range) -> Range:
-        times = [self.impact(state) for state in grid(phases, self.of.velocities)]
+        times = [self.impact(state) for state in grid(phases, self.velocities)]
         return binary(min(times) - _ROOM, 14), binary(max(times) + _ROOM, 14, up=True)
 
     def _stays(self, phases: Range, times: Range) -> bool:
-        low, high = map(float, self.of.velocities)
+        low, high = map(float, self.velocities)
         spare = (high - low) / 200
-        at = product(grid(phases, self.of.velocities), steps(float(times[0]), float(times[1]), 8))
+        at = product(grid(phases, self.velocities), steps(float(times[0]), float(times[1]), 8))
         return all(low + spare < self.velocity(*each) < high - spare for each in at)
 
 
@@ -183,35 +190,39 @@ def _up(x: float) -> Fraction:
     return Fraction(math.ceil(x * 100), 100)
 
 
-def _found(report: Report, source: str) -> Iterator[tuple[RectangleHorseshoe, list[RectangleMap]]]:
+def _found(report: Report, source: str) -> Iterator[tuple[RectangleHorseshoe, list[Rectangle]]]:
     """Yield the horseshoes of two rectangles of one oscillator that claims rest on."""
     document, known = json.loads(source), report.context.known
     used = [name for claim in document["claims"] for name in claim["proof"]]
     for name in dict.fromkeys(used):
-        shoe = known[name]
+        step = known[name]
+        if not isinstance(step, Horseshoe):
+            continue
+        try:
+            shoe = restituting(step)
+        except Unproved:
+            continue
+        maps = [known[each] for each in document["steps"][name]["witness"]["rectangles"]]
         if (
-            isinstance(shoe, RectangleHorseshoe)
-            and isinstance(shoe.strips, Strips)
+            isinstance(shoe.strips, Strips)
             and all(low == high for low, high in shoe.at.sides)
             and shoe.at.sides[2][0] > 0
             and shoe.rates.cone.slope == 0
+            and step.is_rising
         ):
-            names = document["steps"][name]["witness"].get("rectangles", [])
-            maps = [known[each] for each in names]
-            if maps and all(isinstance(each, RectangleMap) and each.sign > 0 for each in maps):
-                yield shoe, [each for each in maps if isinstance(each, RectangleMap)]
+            yield shoe, [each for each in maps if isinstance(each, Rectangle)]
 
 
 class Rectangles(Writer):
     """Collects the lemmas and theorems on two rectangles."""
 
-    def __init__(self, shoe: RectangleHorseshoe, maps: list[RectangleMap]) -> None:
+    def __init__(self, shoe: RectangleHorseshoe, maps: list[Rectangle]) -> None:
         super().__init__()
         self.shoe, self.maps = shoe, maps
         self.flights = [Flights(each) for each in maps]
         self.c = shoe.rates.cone.width
         self.windows, self.bounds = self._chosen()
-        (left, right), velocities = (each.phases for each in maps), maps[0].velocities
+        (left, velocities), (right, _) = (each.box for each in maps)
         self.numbers = {
             **dict(zip(("A", "b0", "a1", "B"), (*left, *right), strict=True)),
             **{"g0": velocities[0], "g1": velocities[1], "c": self.c},
@@ -233,8 +244,8 @@ class Rectangles(Writer):
 
     def rectangle(self, i: int) -> None:
         """Write what is shown of one rectangle."""
-        x, y = self.maps[i].phases
-        named = {"i": i, "x": x, "y": y, "k": self.maps[i].turns, **self.windows[i]._asdict()}
+        x, y = self.maps[i].box[0]
+        named = {"i": i, "x": x, "y": y, "k": self.maps[i].turns[0], **self.windows[i]._asdict()}
         self.add(text.RECTANGLE, **named)
         pieces = self.flights[i].pieces()
         for j, ((low, high), (first, last)) in enumerate(pieces):
@@ -272,7 +283,7 @@ class Rectangles(Writer):
         if of.velocities is None:
             return
         x, g = of.right[1], of.velocities[0]
-        window, k = self.windows[1], self.maps[1].turns
+        window, k = self.windows[1], self.maps[1].turns[0]
         inside = window.a < x < window.b and window.d < g < window.e
         if inside and self.flights[1].impact((float(x), float(g))) < math.tau * k - 1e-6:
             says = (

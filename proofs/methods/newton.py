@@ -169,9 +169,13 @@ def fates(sampled: Sampled, x: Floats, cycles: Sequence[Cycle]) -> list[str]:
 
     x: those of them that are settled.
     """
-    ends = [f"of {_FOLLOWED} points at random {x.shape[1]} are followed for {_SETTLING} steps"]
+    followed = f"of {_FOLLOWED} points at random in the region {x.shape[1]}"
+    ends = [f"{followed} are followed for {_SETTLING} steps"]
     if lost := _FOLLOWED - x.shape[1]:
-        ends.append(f"{lost} are lost before: they rest, go far away, or have no impact soon")
+        ends.append(
+            f"{lost} are lost before: they come to rest, perhaps by chatter, go far away, or have "
+            "no impact soon; for others give a region"
+        )
     near = [
         {k for k, each in enumerate(cycles) if _comes_to(sampled, point, each)} for point in x.T
     ]

@@ -6,25 +6,13 @@ from collections.abc import Callable
 from contextlib import suppress
 from fractions import Fraction
 
-from intervals.errors import Undecided
 from proofs.motion.digits import around
-from proofs.motion.witness import (
-    BLIND,
-    FLOATS,
-    HORIZON,
-    MOST_BITS,
-    FlightBox,
-    NoImpact,
-    Seen,
-    locate,
-    march,
-)
+from proofs.motion.witness import BLIND, FLOATS, MOST_BITS, FlightBox
 from proofs.trusted.flights import COVER_BITS
 from proofs.trusted.kernel.arithmetic import Enclosure
 from proofs.trusted.kernel.gaps import Gap
 from proofs.trusted.numbers import Range
 
-_SPARE = 18  # halvings of a window beyond the width of a box
 _ROOM = 40  # bits of precision beyond those of a bracket
 _STEPS, _FLOAT_BITS = 200, 40  # of Newton's method, and what floats are good for
 
@@ -63,34 +51,6 @@ def _zero(gap_of: Gap, window: Range, time: Fraction, bits: int) -> Fraction:
         if abs(step) * 2**bits < 1:
             break
     return time
-
-
-def transversal_impact(
-    flights: FlightBox, bits: int, *, horizon: Fraction = HORIZON, floats: bool = True
-) -> tuple[Seen, Range]:
-    """Return the transversal first impact of one launch or of a box, and a bracket of its times.
-
-    That of one launch is 2^(1 - bits) wide. For a box two tries, the second with finer steps, are
-    enough.
-    """
-    if not flights.widths:
-        found = locate(flights, horizon=horizon, floats=floats)
-        return found, impact_time(flights, found.windows[0], bits)
-    numbers = FLOATS if floats else COVER_BITS
-    for finest in (Fraction(1, 8), Fraction(1, 128)):
-        try:
-            found = march(flights, numbers, horizon, finest)
-        except NoImpact:
-            raise
-        except (Undecided, *BLIND) as failure:
-            reason = str(failure)
-            continue
-        if found.transversal:
-            (window,) = found.windows
-            halvings = halvings_for(window, min(flights.widths), _SPARE)
-            return found, impact_times(flights, window, numbers, halvings)
-        reason = "the first impact may graze, or is not the same on the whole box"
-    raise Undecided(reason)
 
 
 def impact_times(flights: FlightBox, window: Range, bits: int, halvings: int) -> Range:

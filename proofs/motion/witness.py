@@ -10,7 +10,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from typing import Any, NamedTuple
 
 from intervals.errors import DomainError, Undecided
@@ -18,11 +17,9 @@ from proofs.motion.sketch import Sketch
 from proofs.trusted.equations import (
     Launch,
     clock,
-    closing,
     gap,
     launch,
     launch_acceleration,
-    launch_with_restitution,
 )
 from proofs.trusted.flights import COVER_BITS, FirstImpact, Motion, bits_for_pieces
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
@@ -78,45 +75,28 @@ class Unsettled(Undecided):
 class FlightBox:
     """All launches after impacts at phases of `phases`, of oscillators with eta, nu, epsilon.
 
-    velocities: of the mass before the impact, None after a plastic one. separating: the launch
-    acceleration is known to be >= 0, as it is at the separation phase, where it vanishes.
+    Impacts are plastic. separating: the launch acceleration is known to be >= 0, as it is at the
+    separation phase, where it vanishes.
     """
 
     sides: tuple[Range, Range, Range]
     phases: Range
-    velocities: Range | None = None
     separating: bool = False
 
     @classmethod
     def plastic(cls, at: Place, phases: Range, *, separating: bool = False) -> FlightBox:
-        """Return the launches of a place after plastic impacts."""
-        return cls(at.sides, phases, separating=separating)
-
-    @property
-    def side(self) -> int:
-        """The sign of nu."""
-        return 1 if self.sides[1][0] > 0 else -1
-
-    @cached_property
-    def widths(self) -> list[Fraction]:
-        """The widths of the sides of the box that are no points."""
-        box = [*self.sides, self.phases, self.velocities or self.phases]
-        return [high - low for low, high in box if low < high]
+        """Return the launches of a place."""
+        return cls(at.sides, phases, separating)
 
     @property
     def orders(self) -> tuple[int, ...]:
         """Which derivatives of the gap may be the first that is > 0 at launch."""
-        if self.velocities is not None:
-            return 2, 1
         return (2, 3) if self.separating else (2,)
 
     def start(self, bits: int) -> Launch:
         """Return the launch states in numbers of a precision."""
-        eta, nu, epsilon, phi = (number(values, bits) for values in (*self.sides, self.phases))
-        if self.velocities is None:
-            return launch(self.side, eta, nu, phi)
-        gamma = number(self.velocities, bits)
-        return launch_with_restitution(self.side, eta, nu, phi, epsilon=epsilon, gamma=gamma)
+        eta, nu, phi = (number(values, bits) for values in (*self.sides[:2], self.phases))
+        return launch(1 if self.sides[1][0] > 0 else -1, eta, nu, phi)
 
     def gap_of(self, bits: int, start: Launch | None = None) -> Gap:
         """Return the gap in numbers of a precision; start: the launch states in these."""
@@ -128,11 +108,6 @@ class FlightBox:
 
         return gap_of
 
-    def closing_speed(self, start: Launch, bits: int) -> Enclosure:
-        """Enclose the speed -gap' >= 0 before impacts with restitution; < 0 is impossible."""
-        speed: Enclosure = closing(start, number(self.velocities or (_NOW, _NOW), bits))
-        return speed if self.side > 0 else -speed
-
     def touch_near(self, times: Range) -> str:
         """Say that a plastic flight without an earlier impact touches the table here; "" elsewhere.
 
@@ -141,7 +116,7 @@ class FlightBox:
         eta, last = self.sides[0]
         time = math.tau * (turns := eta.denominator)
         near = eta == last and times[0] - _CLOSE <= time <= times[1] + _CLOSE
-        if self.velocities is not None or not near:
+        if not near:
             return ""
         return (
             f"at time 2 pi {turns} = {time:.9g} mass and table are where they were at the launch, "
@@ -222,7 +197,7 @@ def march(
     start, windows = flights.start(bits), list[Range]()
     gap_of = flights.gap_of(bits, start)
     if not excluded:
-        _require_leaving(flights, start, bits)
+        _require_leaving(flights, start)
     times = list(excluded) or [first_step(gap_of, flights.orders)]
     value, bend = gap_of((times[-1], times[-1]), 0), gap_of((_NOW, horizon), 2)
     step, allowed = times[-1] - (times[-2] if len(times) > 1 else 0), min(finest, times[-1] / 8)
@@ -267,12 +242,9 @@ def _open(windows: list[Range], times: list[Fraction], ahead: Fraction) -> Fract
     return begin
 
 
-def _require_leaving(flights: FlightBox, start: Launch, bits: int) -> None:
-    """Raise Sticks where all phases stick, Undecided where a state is not seen to be possible."""
-    if flights.velocities is not None:
-        if flights.closing_speed(start, bits).lo < 0:
-            raise Undecided("a state before the impact is not proved possible: gap' <= 0 there")
-    elif not flights.separating and launch_acceleration(start).hi < 0:
+def _require_leaving(flights: FlightBox, start: Launch) -> None:
+    """Raise Sticks where all phases stick."""
+    if not flights.separating and launch_acceleration(start).hi < 0:
         raise Sticks(f"{name_of(flights.phases)} sticks to the table after the impact")
 
 

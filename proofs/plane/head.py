@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from contextlib import contextmanager
@@ -10,7 +11,7 @@ from typing import Any
 
 from proofs.plane.cells import decide
 from proofs.plane.store import SPLIT, Row, Store, quarters
-from proofs.shell.entry import uninterrupted, workers
+from proofs.shell.entry import workers
 
 _AHEAD = 2  # chunks for each worker
 _PATIENCE = 5  # seconds, with a scheduler that does not answer
@@ -44,14 +45,26 @@ def executor(jobs: int, where: str) -> Iterator[tuple[Executor, int]]:
         address = where.removeprefix("dask:")
         own = {"n_workers": jobs, "threads_per_worker": 1, "dashboard_address": None}
         own |= {"silence_logs": CRITICAL}
-        with uninterrupted():  # workers end with their head, and have nothing to say
+        with _uninterrupted():  # workers end with their head, and have nothing to say
             client = Client(address, timeout=_PATIENCE) if address else Client(**own)
         try:
             count = sum(client.nthreads().values()) or 1
             yield client.get_executor(pure=False), count
         finally:
-            with uninterrupted():
+            with _uninterrupted():
                 client.close()
+
+
+@contextmanager
+def _uninterrupted() -> Iterator[None]:
+    """Take no SIGINT, nor its repetition by an alarm; nor do processes that begin in here."""
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if hasattr(signal, "setitimer"):  # not on Windows
+        signal.setitimer(signal.ITIMER_REAL, 0)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def run(

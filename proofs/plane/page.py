@@ -17,7 +17,7 @@ from markupsafe import Markup
 from proofs.plane import overlay, picture, summary
 from proofs.plane.picture import Shown
 from proofs.plane.store import LEAVES, Row, Store, key_of, quarters
-from proofs.report.atlases import about
+from proofs.report.atlases import about, areas
 from proofs.report.html import rendered
 from proofs.report.layout import percent
 from proofs.report.typeset import begun
@@ -180,7 +180,7 @@ def page(store: Store, shown: Shown, certificates: Sequence[str]) -> str:
     (made, found, over), region = shown, store.region
     shares = made["share_of_area"]
     whole = data(region, store.cells(*LEAVES))
-    numbers = {name: percent(share) for name, share in shares.items()}
+    numbers = {name: percent(share) for name, share in shares.items()} | areas(shares)
     layers = [
         Layer(kind, colour, summary.words(kind), numbers[kind], made["kinds"][kind], paths)
         for kind, colour in picture.coloured([*found]).items()

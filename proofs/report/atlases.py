@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from proofs.report.layout import percent
+from proofs.report.layout import percents
+from proofs.trusted.atlas import NOT_YET
 from proofs.trusted.certificate import Malformed, Reader
 from proofs.trusted.kernel.maps import Map, read_map
 from proofs.trusted.numbers import show, show_range
@@ -57,6 +58,12 @@ def about(made: dict[str, Any]) -> str:
     return f"impacts have the restitution epsilon {within}"
 
 
+def areas(shares: Mapping[str, str]) -> dict[str, str]:
+    """Return in percent on what of the area there is which verdict, and what is left to do."""
+    names = (Verdict.VERIFIED.value, Verdict.REFUTED.value, Verdict.UNDECIDED.value, NOT_YET)
+    return percents({x: shares[x] for x in names}, Verdict.UNDECIDED.value)
+
+
 def _told(link: str, made: dict[str, Any]) -> Atlas:
     sides = (
         f"{name} in {show_range((Fraction(low), Fraction(high)))}"
@@ -64,10 +71,8 @@ def _told(link: str, made: dict[str, Any]) -> Atlas:
             "parameters", {name: made.get(name) for name in ("eta", "nu")}
         ).items()
     )
-    shares = [
-        (verdict, percent(made["share_of_area"][verdict.value]))
-        for verdict in Verdict
-        if made["cells"].get(verdict.value)
-    ]
+    shown = [verdict for verdict in Verdict if made["cells"].get(verdict.value)]
+    written = areas(made["share_of_area"])
+    shares = [(verdict, written[verdict.value]) for verdict in shown]
     where = ", ".join(sides)
     return Atlas(link, made["question"], made["holds"], where, about(made), shares)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
@@ -68,8 +68,24 @@ def enclosure(lower: str, upper: str) -> str:
 
 def percent(share: str) -> str:
     """Write a share in percent, rounded down to a tenth."""
-    tenths = int(Fraction(share) * 1000)
-    return f"{tenths // 10}.{tenths % 10} %"
+    return _tenths(int(Fraction(share) * 1000))
+
+
+def percents(shares: Mapping[str, str], last: str) -> dict[str, str]:
+    """Write the shares of a whole in percent, to a tenth, so that they add up to 100.
+
+    They are rounded down, and what is left is of `last`; without that, of those that lose most.
+    """
+    exact = {name: Fraction(share) * 1000 for name, share in shares.items()}
+    tenths = {name: int(share) for name, share in exact.items()}
+    losers = sorted(exact, key=lambda name: tenths[name] - exact[name])
+    for loser in losers[: 1000 - sum(tenths.values())]:
+        tenths[last if exact.get(last) else loser] += 1
+    return {name: _tenths(share) for name, share in tenths.items()}
+
+
+def _tenths(count: int) -> str:
+    return f"{count // 10}.{count % 10} %"
 
 
 def _padded(text: str, places: int) -> str:

@@ -29,6 +29,7 @@ from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Range
+from proofs.trusted.paper.beyond.returning import StickingMotion
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.slopes import SlopeRange
 
@@ -229,8 +230,15 @@ def _cycle(run: Run, start: float) -> list[tuple[float, float]] | None:
 
 
 def _shares(run: Run) -> Proof:
-    """Prove how much of the circle comes to the sticking arc, or never impacts again."""
+    """Prove how much of the circle comes to the sticking arc, or never impacts again.
+
+    Not where the one motion that sticks has more than one impact a period.
+    """
     run.budget.check()
+    with suppress(*FAILED), run.prover.undone():
+        sticking = _sticking(run)
+        if any(isinstance(x, StickingMotion) and x.cells for _, x in sticking):
+            return sticking
     arc, never = prove_arc(run.prover), None
     with suppress(*FAILED):
         never = prove_longest(run.prover)

@@ -17,7 +17,7 @@ from proofs.motion.witness import HORIZON
 from proofs.search.beyond import too_fast
 from proofs.search.budget import EFFORT, Budget
 from proofs.search.evidence import FAILED, Evidence, Proof, Tell, search_each
-from proofs.search.s33_cycles import around_image, follow, stable_cycles
+from proofs.search.s33_cycles import around_image, stable_cycles
 from proofs.search.s33_own import rectangles
 from proofs.search.s33_steps import ReboundProver
 from proofs.search.s34_border import witness
@@ -54,7 +54,7 @@ def prove(
 
 
 def _chaos(prover: ReboundProver, budget: Budget) -> Proof:
-    """Prove a horseshoe on rectangles that are found (rule rectangle-horseshoe)."""
+    """Prove a horseshoe on rectangles that are found (rule horseshoe)."""
     system, of = prover.plain.system, prover.of
     epsilon = of.epsilon or Fraction(0)
     at = Place.restituting(of.eta, of.nu, epsilon)
@@ -97,11 +97,11 @@ def _chattering(prover: ReboundProver, epsilon: Fraction) -> tuple[str, Conclusi
     pushing, first = Pushing(arc.at, arc.phase[0]), around(arc, _AROUND)
     box, impacts = list(first), list[str]()
     while len(impacts) < _MOST_IMPACTS:
-        ((name, found),) = follow(prover, at, box, 1)
+        name, found = prover.state(at, tuple(box))
         impacts.append(name)
         box = around_image(found)
         with suppress(*FAILED):
-            state = landed(arc, (found.phase, found.velocity), BITS)
+            state = landed(arc, (found.values[0], found.values[1]), BITS)
             cell = pushing.settle((epsilon, epsilon), *state)
             made = witness(separation, first, [cell], impacts)
             name = prover.derive("superstable-motion", **made)

@@ -3,30 +3,36 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import partial
 from typing import Any, NamedTuple
 
 from intervals import Undecided
 from intervals.cover import PartsExhausted, cover
-from proofs.motion.brackets import transversal_impact
 from proofs.motion.covering import halves
 from proofs.motion.digits import to_digits
 from proofs.motion.landing import separation_phase
 from proofs.motion.system import System
-from proofs.motion.witness import HORIZON, FlightBox, Impossible, NoImpact, Unsettled
-from proofs.search.evidence import FAILED, Proved, concluded, floats_first
+from proofs.motion.witness import HORIZON, Impossible, NoImpact
+from proofs.search.evidence import Proved, concluded
 from proofs.search.image import Image, image
+from proofs.search.s33_steps import function_of
 from proofs.trusted.certificate import texts
-from proofs.trusted.equations import arrival
-from proofs.trusted.flights import COVER_BITS, Motion, bits_for, lifted
+from proofs.trusted.equations import arrival, closing, launch
+from proofs.trusted.flights import COVER_BITS, Motion, bits_for, lifted, whole_turns
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.differential import Differential, differential_on
+from proofs.trusted.kernel.enclose import enclosed
+from proofs.trusted.kernel.firstzero import NoFirstZero
 from proofs.trusted.numbers import Range, ceil_text, floor_text, hull
-from proofs.trusted.paper.s33_restitution.rebounds import Entries, next_states
+from proofs.trusted.oscillator import Oscillator, flight
 from proofs.trusted.parameters import Place
 
+Box = tuple[Range, Range]  # phases x velocities
 _PARTS = 128
+_ROOM = 40  # bits beyond those that are asked for
 _ZERO = (Fraction(0), Fraction(0))
 
 
@@ -34,7 +40,7 @@ _ZERO = (Fraction(0), Fraction(0))
 class Rebound:
     """The next impact of all states given: bounds on flight, phase, velocity gamma, and DF.
 
-    jacobian: rows (phase, velocity), columns (phi, gamma). If `sticking`, which takes epsilon = 0,
+    jacobian: rows (phase, velocity) by (phi, gamma). If `sticking`, which takes epsilon = 0,
     all of them dwell on the table until the separation phase and fly from there: DF = 0. prove:
     makes steps that say so, of the flight alone if `sticking`.
     """
@@ -42,7 +48,7 @@ class Rebound:
     flight: Range
     phase: Range
     velocity: Range
-    jacobian: Entries
+    jacobian: tuple[Range, ...]
     sticking: bool = False
     dwell: Range | None = None
     prove: Callable[[], Proved] = field(kw_only=True, compare=False, repr=False)
@@ -63,35 +69,36 @@ def rebound(
     parts on which the first impact is one smooth function. Raises Impossible where a state may
     not exist, NoImpact where none follows up to the horizon, Undecided where nothing can be said.
     """
-    eta, nu, epsilons = ((x, x) for x in (system.eta, system.nu, epsilon))
-    states = FlightBox((eta, nu, epsilons), phases, velocities)
-    _require_possible(states)
+    of = flight(((system.eta,) * 2, (system.nu,) * 2, (epsilon,) * 2), latest=horizon)
+    box = phases, velocities
+    _require_possible(of, box)
     if epsilon == 0:
         plastic = image(system, phases, digits=digits, horizon=horizon)
         if isinstance(plastic, Image) and plastic.sticking:
             return _after_sticking(system, plastic)
-    if not states.widths:
-        return _at_point(states, digits, horizon)
-    return _over_box(states, horizon)
+    if phases[0] == phases[1] and velocities[0] == velocities[1]:
+        return _at_point(of, box, digits)
+    return _over_box(of, box)
 
 
-def _require_possible(states: FlightBox) -> None:
+def _require_possible(of: Oscillator, box: Box) -> None:
     """Raise Impossible unless gap' <= 0 before each impact: the mass comes from above.
 
     One state is looked at ever more closely; where its closing speed may be 0, Undecided says so.
     """
     for bits in (COVER_BITS, 4 * COVER_BITS, 16 * COVER_BITS):
-        start = states.start(bits)
-        speed = states.closing_speed(start, bits)
-        if speed.lo >= 0:
+        eta, nu, phi, gamma = (Enclosure.of(*side, bits) for side in (*of.sides[:2], *box))
+        start = launch(of.side, eta, nu, phi)
+        speed = closing(start, gamma) * of.side
+        if speed.lo > 0:
             return
         if speed.hi < 0:
             break
     else:
-        if not states.widths:
+        if all(low == high for low, high in box):
             raise Undecided("the closing speed is 0, or too close to it to tell its sign")
     low, high = (-start.rate / start.eta).range
-    if states.side < 0:
+    if of.side < 0:
         bound = f"gamma is at most {floor_text(low)}"
     else:
         bound = f"gamma is at least {ceil_text(high)}"
@@ -101,54 +108,60 @@ def _require_possible(states: FlightBox) -> None:
     )
 
 
-def witness(flights: FlightBox, times: tuple[Fraction, ...], impact: Range) -> dict[str, list[str]]:
-    """Return what rule `rebound` takes."""
-    names = "eta", "nu", "epsilon"
-    sides = {name: texts(side) for name, side in zip(names, flights.sides, strict=True)}
-    states = {"phases": texts(flights.phases), "velocities": texts(flights.velocities or _ZERO)}
-    return {**sides, **states, "times": texts(times), "impact": texts(impact)}
-
-
 class NextState(NamedTuple):
-    """What rule `rebound` takes, and what `next_states` returns: phases are less turns."""
+    """What rule `differential` concludes, with so many bits; how long the flights take."""
 
-    witness: dict[str, list[str]]
+    proved: Differential
+    bits: int
     flight: Range
-    turns: int
-    phase: Range
-    velocity: Range
-    derivative: Entries
 
 
-def next_state(states: FlightBox, bits: int, horizon: Fraction) -> NextState:
-    """Enclose F and DF over a box of states."""
-
-    def make(floats: bool) -> NextState:
-        found, time = transversal_impact(states, bits, horizon=horizon, floats=floats)
-        box = states.phases, states.velocities or _ZERO
-        taken = witness(states, found.times, time)
-        return NextState(taken, time, *next_states(states.sides, box, found.times, time))
-
-    return floats_first(make)
+def next_state(of: Oscillator, box: Box, bits: int) -> NextState:
+    """Enclose F and DF over a box of states; NoImpact where none follows up to the horizon."""
+    try:
+        time = of.impact(enclosed(box, bits)).range
+        turns = (box[0][0] + time[0]) // whole_turns(1, bits)[0]
+        return NextState(differential_on(of, box, (turns,), bits), bits, time)
+    except NoFirstZero as failure:
+        raise NoImpact(str(failure)) from None
 
 
-def _at_point(states: FlightBox, digits: int, horizon: Fraction) -> Rebound:
+def _at_point(of: Oscillator, box: Box, digits: int) -> Rebound:
     found = to_digits(
         digits,
-        lambda bits: next_state(states, bits, horizon),
-        lambda x: (x.flight, x.phase, x.velocity, *sum(x.derivative, ())),
-        final=(Undecided,),
+        lambda bits: next_state(of, box, bits + _ROOM),
+        lambda x: (x.flight, *x.proved.values, *sum(x.proved.matrix, ())),
+        final=(NoImpact,),
     )
-    prove = partial(_proved, states, [found])
-    return Rebound(found.flight, found.phase, found.velocity, found.derivative, prove=prove)
+    return _joined(of, [found])
 
 
-def _proved(states: FlightBox, parts: Sequence[NextState]) -> Proved:
-    """Prove what F does on each part (rule rebound)."""
-    at, steps = Place(*states.sides), dict[str, dict[str, Any]]()
-    for number, part in enumerate(parts, 1):
-        concluded("rebound", part.witness, Context(at))
-        steps[f"rebound-{number}"] = {"rule": "rebound", "witness": part.witness}
+def _joined(of: Oscillator, found: Sequence[NextState]) -> Rebound:
+    """Return what holds for all parts of a box; phases are less the turns of the first."""
+    (turns, *_) = (each.proved.turns[0] for each in found)
+    return Rebound(
+        hull([each.flight for each in found]),
+        hull([lifted(x.values[0], x.turns[0] - turns, 64) for x, *_ in found])
+        if len(found) > 1
+        else found[0].proved.values[0],
+        hull([each.proved.values[1] for each in found]),
+        tuple(map(hull, zip(*(sum(each.proved.matrix, ()) for each in found), strict=True))),
+        prove=partial(_proved, of, found),
+    )
+
+
+def _proved(of: Oscillator, parts: Sequence[NextState]) -> Proved:
+    """Prove what F does on each part (rule differential)."""
+    at, steps = Place(*of.sides), dict[str, dict[str, Any]]()
+    for number, (part, bits, _) in enumerate(parts, 1):
+        witness = {
+            "function": function_of(at),
+            "box": [texts(side) for side in part.box],
+            "turns": [str(part.turns[0])],
+            "bits": str(bits),
+        }
+        concluded("differential", witness, Context(at))
+        steps[f"differential-{number}"] = {"rule": "differential", "witness": witness}
     return at, steps, [*steps]
 
 
@@ -157,43 +170,33 @@ def _after_sticking(system: System, plastic: Image) -> Rebound:
     bits = bits_for(plastic.flight)
     motion = Motion(system.place, separation_phase(system, bits), bits)
     velocity = arrival(motion.start(), motion.clock(plastic.flight))[1].range
-    still = (_ZERO, _ZERO), (_ZERO, _ZERO)
+    still = (_ZERO,) * 4
     arrived, dwell, prove = (plastic.flight, plastic.phase, velocity), plastic.dwell, plastic.prove
     return Rebound(*arrived, still, sticking=True, dwell=dwell, prove=prove)
 
 
-def _over_box(states: FlightBox, horizon: Fraction) -> Rebound:
-    def decide(part: FlightBox) -> NextState | None:
+def _over_box(of: Oscillator, box: Box) -> Rebound:
+    def decide(part: Box) -> NextState | None:
         try:
-            return next_state(part, COVER_BITS, horizon)
-        except (NoImpact, Unsettled):
-            raise
-        except FAILED:
+            return next_state(of, part, COVER_BITS)
+        except Unproved:
             return None
 
     try:
-        found = [one for _, one in cover([states], decide, _split, limit=_PARTS)]
+        found = [one for _, one in cover([box], decide, _split, limit=_PARTS)]
     except PartsExhausted:
         raise Undecided(
             f"{_PARTS} parts of the box do not suffice: some of its flights graze or stick, "
             "so that F jumps"
         ) from None
-    rows = zip(*(one.derivative for one in found), strict=True)
-    (p, q), (r, s) = ([hull(entry) for entry in zip(*row, strict=True)] for row in rows)
-    return Rebound(
-        hull([one.flight for one in found]),
-        hull([lifted(one.phase, one.turns - found[0].turns, 64) for one in found]),
-        hull([one.velocity for one in found]),
-        ((p, q), (r, s)),
-        prove=partial(_proved, states, found),
-    )
+    return _joined(of, found)
 
 
-def _split(part: FlightBox) -> tuple[FlightBox, FlightBox]:
+def _split(part: Box) -> tuple[Box, Box]:
     """Halve the longer side of a box of states."""
-    by_phase, by_velocity = (ends[1] - ends[0] for ends in (part.phases, part.velocities or _ZERO))
-    if by_phase >= by_velocity:
-        low, high = halves(part.phases)
-        return replace(part, phases=low), replace(part, phases=high)
-    low, high = halves(part.velocities or _ZERO)
-    return replace(part, velocities=low), replace(part, velocities=high)
+    phases, velocities = part
+    if phases[1] - phases[0] >= velocities[1] - velocities[0]:
+        low, high = halves(phases)
+        return (low, velocities), (high, velocities)
+    low, high = halves(velocities)
+    return (phases, low), (phases, high)

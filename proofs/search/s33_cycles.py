@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import random
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import suppress
 from fractions import Fraction
 
@@ -12,16 +12,20 @@ from intervals import Undecided
 from proofs.motion.simulate import TURNS, next_impact
 from proofs.motion.system import System
 from proofs.search.evidence import FAILED
-from proofs.search.s33_steps import ReboundProver
+from proofs.search.s33_steps import ReboundProver, function_of
+from proofs.trusted.certificate import texts
 from proofs.trusted.equations import (
     arrival,
     clock,
     launch_with_restitution,
     return_map_derivative,
 )
-from proofs.trusted.numbers import TURN, Range, within
-from proofs.trusted.paper.s33_restitution.cycles import StableCycle, loop, stable_cycle
-from proofs.trusted.paper.s33_restitution.rebounds import Rebound, size
+from proofs.trusted.kernel.differential import Differential
+from proofs.trusted.kernel.enclose import Matrix, enclosed, point_box
+from proofs.trusted.kernel.rates import size
+from proofs.trusted.kernel.stable import StableCycle, follow
+from proofs.trusted.numbers import TURN, Range
+from proofs.trusted.oscillator import flight
 from proofs.trusted.parameters import Place
 
 _IMPACTS = 200  # until simulated motions are near an orbit
@@ -31,6 +35,7 @@ _EDGE = 1e-3  # phases so close to 0 are left alone
 _LONGEST = 24  # period
 _MOST_ROUNDS = 8  # of an orbit, until F contracts a box
 _NEWTON = 3  # steps
+_BITS = 128
 _GRID = 10**12  # states and half sides are multiples of 1 / _GRID
 State = tuple[Fraction, Fraction]
 Floats = tuple[float, float]
@@ -64,9 +69,10 @@ def prove_cycle(
     s how far F^n leads from the state, c > 1 so that c |D| still contracts: c (s + |D| r) < r.
     n is the period times `rounds`: more than one where F turns states around the orbit.
     """
-    count = period * rounds
-    centres = follow(prover, at, [(x, x) for x in state], count)
-    ((p, q), (r, s)), root = _sizes([step for _, step in centres])
+    map_, count = flight(at.sides), period * rounds
+    centre = enclosed(point_box(state), _BITS)
+    (*_, end), product = follow(map_, centre, count)
+    ((p, q), (r, s)), root = _sizes(product)
     if root >= 1:
         raise Undecided("the orbit is not seen to contract")
     more = min(4.0, max(root, 1e-9) ** -0.5)
@@ -78,18 +84,21 @@ def prove_cycle(
             (more * r * x + (1 - more * p) * y) / across,
         )
 
-    end = centres[-1][1]
     away = [
         more * float(max(high - x, x - low))
-        for x, (low, high) in zip(state, (end.phase, end.velocity), strict=True)
+        for x, (low, high) in zip(state, (side.range for side in end), strict=True)
     ]
     least, reach = box(1, 1), box(away[0], away[1])
     half = [rounded(_HALF * x / max(least) + y) for x, y in zip(least, reach, strict=True)]
-    around = [(x - r, x + r) for x, r in zip(state, half, strict=True)]
-    boxes = follow(prover, at, around, count)
-    found = stable_cycle([step for _, step in boxes], [step for _, step in centres])
-    names = {"boxes": [name for name, _ in boxes], "centres": [name for name, _ in centres]}
-    return prover.plain.add("stable-cycle", names), found
+    around = [texts((x - r, x + r)) for x, r in zip(state, half, strict=True)]
+    name = prover.derive(
+        "stable-cycle",
+        function=function_of(at),
+        box=around,
+        period=str(period),
+        rounds=str(rounds),
+    )
+    return name, prover.get(name, StableCycle)
 
 
 def seen_from(at: Place, state: State, period: int) -> tuple[State, float]:
@@ -121,28 +130,15 @@ def seen_from(at: Place, state: State, period: int) -> tuple[State, float]:
     return (rounded(phase), rounded(gamma)), root
 
 
-def _sizes(steps: Sequence[Rebound]) -> tuple[list[list[float]], float]:
-    """Return about |D|, D the derivative of F^k, and its spectral radius."""
-    (p, q), (r, s) = product = [[float(size(entry.range)) for entry in row] for row in loop(steps)]
+def _sizes(matrix: Matrix) -> tuple[list[list[float]], float]:
+    """Return about |D|, the largest absolute values of entries, and its spectral radius."""
+    (p, q), (r, s) = product = [[float(size(entry.range)) for entry in row] for row in matrix]
     return product, (p + s + math.hypot(p - s, 2 * math.sqrt(q * r))) / 2
 
 
-def follow(
-    prover: ReboundProver, at: Place, box: Sequence[Range], count: int
-) -> list[tuple[str, Rebound]]:
-    """Prove impacts of a box of states, of one that contains its image, and so on."""
-    steps: list[tuple[str, Rebound]] = []
-    for _ in range(count):
-        if not within(box[0], (Fraction(0), TURN)):
-            raise Undecided("a box of states reaches over the phase 0")
-        steps.append(prover.rebound(at, box[0], box[1]))
-        box = around_image(steps[-1][1])
-    return steps
-
-
-def around_image(step: Rebound) -> list[Range]:
+def around_image(step: Differential) -> list[Range]:
     """Return a box of states, short numbers, that contains the image of another one."""
-    return [(-rounded(-low), rounded(high)) for low, high in (step.phase, step.velocity)]
+    return [(-rounded(-low), rounded(high)) for low, high in step.values]
 
 
 def _candidates(system: System, epsilon: float, tries: int) -> Iterator[list[Floats]]:

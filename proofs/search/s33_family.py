@@ -10,12 +10,11 @@ from functools import partial
 from proofs.motion.system import System
 from proofs.search.s33_moving import Moving, first_guess, settled
 from proofs.search.s33_steps import Box, ReboundProver
-from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.differential import Differential
+from proofs.trusted.kernel.rates import Cone, rates
+from proofs.trusted.kernel.rectangles import overlap
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s33_restitution.cones import Cone, rates
-from proofs.trusted.paper.s33_restitution.rebounds import Rebound
-from proofs.trusted.paper.s33_restitution.rectangles import meet
 from proofs.trusted.parameters import Parameters, Place
 
 _FAR = Fraction("0.2")  # as far as epsilon is followed, or just beyond that of the statement
@@ -58,18 +57,19 @@ def _place(of: Parameters, epsilon: Range) -> Place:
 
 def proved(prover: ReboundProver, at: Place, candidate: Moving) -> str:
     """Prove the horseshoe on candidate rectangles; or Unproved."""
-    boxes = [
+    boxes: list[Box] = [
         (_rounded(phases), _rounded(velocities))
         for phases, velocities in zip(candidate.phases, candidate.velocities, strict=True)
     ]
     cone = Cone(Fraction(round(candidate.axis * 100), 100), _WIDTH)
+    arrows = [candidate.following(k) for k in range(len(boxes))]
     with prover.attempt():
         names = []
         for k, box in enumerate(boxes):
             cuts = [Fraction(round(cut * _GRID), _GRID) for cut in candidate.cuts(k)]
-            fits = partial(_fits, boxes=boxes, following=candidate.following(k), cone=cone)
+            fits = partial(_fits, boxes=boxes, following=arrows[k], cone=cone)
             names.append(prover.cut_rectangle(at, box, cuts, fits))
-        return prover.derive("rectangle-horseshoe", rectangles=names, cone=texts(cone))
+        return prover.across(names, arrows, cone)
 
 
 def _rounded(values: tuple[float, float]) -> Range:
@@ -77,14 +77,15 @@ def _rounded(values: tuple[float, float]) -> Range:
     return low, high
 
 
-def _fits(part: Rebound, boxes: list[Box], following: tuple[int, int], cone: Cone) -> bool:
-    """Whether what F does on a part of a rectangle is as the rule `rectangle-horseshoe` asks."""
+def _fits(part: Differential, boxes: list[Box], following: tuple[int, int], cone: Cone) -> bool:
+    """Whether what F does on a part of a rectangle is as the rule `horseshoe` asks."""
     for k, (phases, (low, high)) in enumerate(boxes):
-        if not meet(part.phase, phases):
+        phase, velocity = part.values
+        if not overlap((phase,), (phases,)):
             continue
-        if k in following and not low < part.velocity[0] <= part.velocity[1] < high:
+        if k in following and not low < velocity[0] <= velocity[1] < high:
             return False
-        if k not in following and meet(part.velocity, (low, high)):
+        if k not in following and overlap((velocity,), ((low, high),)):
             return False
     with suppress(Unproved):
         return rates([part], cone).expansion > 1

@@ -1,44 +1,47 @@
 """Proof steps of the map with restitution: each proves something and records its witness.
 
-Impacts are looked for as in `steps`; what follows from them, by the theorems of `s33_restitution`
-themselves, applied to the conclusions reached here.
+The general rules prove it of the oscillator's flight; floats see what is worth to be tried.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import partial
 from itertools import pairwise, product
 from typing import Any, TypeVar
 
 from intervals.errors import Undecided
-from proofs.motion.brackets import transversal_impact
-from proofs.motion.witness import FlightBox
+from proofs.motion.simulate import next_impact
+from proofs.motion.system import System
+from proofs.motion.witness import HORIZON
 from proofs.search.evidence import FAILED, concluded
-from proofs.search.rebound import witness
 from proofs.search.s33_rectangles import Sets, image_phases, state_after
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.differential import BITS, Differential, differential_on
+from proofs.trusted.kernel.rates import PLAIN, Cone
+from proofs.trusted.kernel.rectangles import Rectangle
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s33_restitution.cones import PLAIN
-from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap
+from proofs.trusted.oscillator import flight
+from proofs.trusted.paper.s33_restitution.horseshoes import place_of
+from proofs.trusted.paper.s33_restitution.rectangles import ALL
 from proofs.trusted.parameters import Parameters, Place
 
 C = TypeVar("C", bound=Conclusion)
-Box = tuple[Range, Range]  # phases x velocities
-Fits = Callable[[Rebound], bool]
-ImagesOf = Callable[[Place, Fraction, Range], Range]  # phases after one phase and velocities
+Box = tuple[Range, ...]  # phases x velocities
+Fits = Callable[[Differential], bool]
 _WIDEST = Fraction(1, 32)  # of a part of a rectangle, in phase
 _NARROWEST = Fraction(1, 256)
 _LONGEST = 8  # symbols of a barred word
 _FINEST = 8  # parts of a step
 _MOST_SLABS = 40
+_ROOM = 40  # bits beyond those of a result
 
 
 @dataclass
@@ -85,22 +88,6 @@ class ReboundProver:
 
     # -- steps ---------------------------------------------------------------------------------
 
-    def rebound(self, at: Place, phases: Range, velocities: Range) -> tuple[str, Rebound]:
-        """Prove the next impact of all states of a box (rule rebound), once."""
-        wanted = at, phases, velocities
-        known = self.known.get(self._names.get(wanted, ""))
-        if type(known) is not Rebound or (known.at, known.phases, known.velocities) != wanted:
-            make = partial(self._rebound, at, phases, velocities)
-            self._names[wanted] = self.plain.seen_or_proved(make)
-        return self._names[wanted], self.get(self._names[wanted], Rebound)
-
-    def _rebound(self, at: Place, phases: Range, velocities: Range, floats: bool) -> str:
-        flights = FlightBox(at.sides, phases, velocities)
-        found, time = transversal_impact(
-            flights, self.plain.bits, horizon=self.plain.horizon, floats=floats
-        )
-        return self.derive("rebound", **witness(flights, found.times, time))
-
     def derive(self, rule: str, **witness: Any) -> str:
         """Prove a step from earlier ones, by the theorem itself; once."""
         step = {"rule": rule, "witness": witness}
@@ -111,63 +98,48 @@ class ReboundProver:
             self.known[name] = conclusion
         return name
 
-    def rectangle(self, at: Place, phases: Range, cuts: Sequence[Fraction]) -> str:
-        """Prove what F does on a rectangle, from parts that are known, or else between the cuts."""
-        for name, known in self.all(RectangleMap, at):
-            if known.phases == phases:
-                return name
-        if parts := self._chain(at, phases):
-            return self._joined(at, (phases, self.velocities), parts)
+    def state(self, at: Place, box: Box, bits: int = BITS) -> tuple[str, Differential]:
+        """Prove the next impact of all states of a box (rule differential), once."""
+        turns, function = [turns_of(at, box)], function_of(at)
+        sides = [texts(side) for side in box]
+        name = self.derive(
+            "differential", function=function, box=sides, turns=turns, bits=str(bits)
+        )
+        return name, self.get(name, Differential)
+
+    def rectangle(self, at: Place, phases: Range, cuts: Sequence[Fraction] = ()) -> str:
+        """Prove what F does on a rectangle, in parts between the cuts or finer."""
         return self.cut_rectangle(at, (phases, self.velocities), cuts, self._stays)
 
     def cut_rectangle(self, at: Place, box: Box, cuts: Sequence[Fraction], fits: Fits) -> str:
         """Prove what F does on a rectangle, in parts that fit, between the cuts or finer."""
-        low, high = box[0]
-        inner = (cut for cut in cuts if low < cut < high)
-        return self._joined(at, box, self._parts(at, [low, *inner, high], box[1], fits))
-
-    def _joined(self, at: Place, box: Box, parts: list[str]) -> str:
-        edges = [self.rebound(at, (end, end), box[1])[0] for end in box[0]]
-        return self.derive("rectangle", parts=parts, edges=edges)
-
-    def _chain(self, at: Place, phases: Range) -> list[str]:
-        """Return known parts, one after the other, that cover the phases; or none."""
-        names, reach = [], phases[0]
-        wide = [(k, x) for k, x in self.all(Rebound, at) if x.velocities == self.velocities]
-        while reach < phases[1]:
-            onward = [(x.phases[1], k) for k, x in wide if x.phases[0] <= reach < x.phases[1]]
-            if not onward:
-                return []
-            reach, name = max(onward)
-            names.append(name)
-        return names
-
-    def _parts(
-        self, at: Place, cuts: Sequence[Fraction], velocities: Range, fits: Fits
-    ) -> list[str]:
-        """Prove impacts on parts between cuts, in order, each halved while it must be."""
-        names, rest = [], list(reversed(list(pairwise(cuts))))
-        while rest:
-            low, high = rest.pop()
+        (low, high), turns = box[0], turns_of(at, box)
+        inner = _finer([low, *(cut for cut in cuts if low < cut < high), high])
+        while True:
             try:
-                if high - low > _WIDEST:
-                    raise Undecided("wider than it is worth to try")
-                with self.attempt():
-                    name, found = self.rebound(at, (low, high), velocities)
-                    if not fits(found):
-                        raise Undecided("images or derivatives do not fit")
-                    names.append(name)
+                name = self.derive(
+                    "rectangle",
+                    function=function_of(at),
+                    box=[texts(side) for side in box],
+                    cuts=texts(inner[1:-1]),
+                    turns=[turns],
+                )
+                parts = self.get(name, Rectangle).parts
+                wide = [part.box[0] for part in parts if not fits(part)]
             except FAILED:
-                if high - low <= _NARROWEST:
+                wide = [part for part in pairwise(inner) if not _is_smooth(at, (part, box[1]))]
+                if not wide:
                     raise
-                middle = (low + high) / 2
-                rest += [(middle, high), (low, middle)]
-        return names
+            if not wide:
+                return name
+            if any(high - low <= _NARROWEST for low, high in wide):
+                raise Unproved("images or derivatives do not fit")
+            inner = sorted({*inner, *(sum(part, Fraction(0)) / 2 for part in wide)})
 
-    def _stays(self, found: Rebound) -> bool:
+    def _stays(self, part: Differential) -> bool:
         """Whether image velocities stay in the rectangles."""
-        low, high = self.velocities
-        return low < found.velocity[0] <= found.velocity[1] < high
+        (low, high), (least, most) = self.velocities, part.values[1]
+        return low < least <= most < high
 
     def pair(self, at: Place, sets: Sets, cuts: Sequence[Fraction] = ()) -> list[str]:
         """Prove what F does on two rectangles."""
@@ -176,54 +148,30 @@ class ReboundProver:
 
     def horseshoe(self, at: Place, sets: Sets, cuts: Sequence[Fraction] = ()) -> str:
         """Prove that F maps both rectangles across both."""
+        images = image_phases(at, self.velocities)
+        for ends in sets:
+            known = [image for image in map(images, ends) if image is not None]
+            low, high = min(known, default=(0, 0)), max(known, default=(0, 0))  # f may fall
+            short = float(max(low[1] - sets[0][0], sets[1][1] - high[0]))
+            if len(known) < 2 or short >= 0:
+                raise Unproved(f"an edge seems to fall short by {short:.6g}, or to stick")
         with self.attempt():
-            for ends in sets:
-                low, high = sorted(
-                    self.rebound(at, (end, end), self.velocities)[1].phase for end in ends
-                )
-                short = max(low[1] - sets[0][0], sets[1][1] - high[0])
-                if short >= 0:
-                    raise Unproved(f"an edge may fall short by up to {float(short):.6g}")
-            pair = self.pair(at, sets, cuts)
-            return self.derive("rectangle-horseshoe", rectangles=pair, cone=texts(PLAIN))
+            return self.across(self.pair(at, sets, cuts), ALL, PLAIN)
+
+    def across(self, names: Sequence[str], arrows: Sequence[Sequence[int]], cone: Cone) -> str:
+        """Prove which rectangles F maps across which (rule horseshoe)."""
+        following = [[str(k + 1) for k in each] for each in arrows]
+        return self.derive("horseshoe", rectangles=list(names), arrows=following, cone=texts(cone))
 
     # -- words ---------------------------------------------------------------------------------
 
     def bar(self, pair: Sequence[str], word: Sequence[int], above: bool) -> str:
         """Prove that no orbit follows a word, if floats agree."""
-        maps, images = [self.get(name, RectangleMap) for name in pair], list[str]()
-
-        def proved(at: Place, bound: Fraction, gammas: Range) -> Range:
-            name, image = self.rebound(at, (bound, bound), gammas)
-            images.append(name)
-            return image.phase
-
-        low, high = maps[word[-1]].phases
-        seen = self._extreme(maps, word, above, _seen_images)
-        if seen >= low if above else seen <= high:
+        if not _seems_barred([self.get(pair[symbol], Rectangle) for symbol in word], above):
             raise Unproved("in floating point an orbit follows the word")
-        with self.attempt():
-            self._extreme(maps, word, above, proved)
-            return self.derive(
-                "barred-word",
-                rectangles=list(pair),
-                word="".join(map(str, word)),
-                images=images,
-                **{"from": "above" if above else "below"},
-            )
-
-    def _extreme(
-        self, maps: Sequence[RectangleMap], word: Sequence[int], above: bool, images: ImagesOf
-    ) -> Fraction:
-        """Return how far states come along a word, bounds rounded outward to four places."""
-        extreme, gammas = maps[word[0]].phases[above], self.velocities
-        for symbol in word[:-1]:
-            here = maps[symbol]
-            low, high = here.phases
-            bound = min(high, _up(extreme)) if above else max(low, -_up(-extreme))
-            extreme = images(here.at, bound, gammas)[above]
-            gammas = -_up(-here.velocity[0]), _up(here.velocity[1])
-        return extreme
+        symbols = [str(symbol + 1) for symbol in word]
+        way = {"from": "above" if above else "below"}
+        return self.derive("barred-word", rectangles=list(pair), word=symbols, **way)
 
     def constant_word(self, pair: Sequence[str], symbols: Sequence[int] = (0, 1)) -> str:
         """Prove that no orbit follows some word of one symbol, the shortest that will do."""
@@ -244,7 +192,7 @@ class ReboundProver:
     def never_repeats(self, pair: Sequence[str], right: Range) -> str:
         """Prove that full orbits do not repeat V2, by what F does on a part N of V2."""
         with self.attempt():
-            part = self.rectangle(self.get(pair[0], RectangleMap).at, right, ())
+            part = self.rectangle(place_of(self.get(pair[0], Rectangle)), right)
             words = [
                 self.bar(pair, word, True) for word in ((0, 0, 1, 1), (1, 0, 1, 1), (0, 1, 1, 1))
             ]
@@ -270,7 +218,9 @@ class ReboundProver:
             if images and (not short or sets[0][0] < least(images) < sets[1][1]):
                 gamma = images[least(images)]
                 with suppress(*FAILED):
-                    names.append(self.rebound(at, (end, end), (gamma, gamma))[0])
+                    names.append(
+                        self.state(at, ((end, end), (gamma, gamma)), self.plain.bits + _ROOM)[0]
+                    )
         return names
 
     # -- ranges of parameters ------------------------------------------------------------------
@@ -303,14 +253,44 @@ class ReboundProver:
         return []
 
 
-def _seen_images(at: Place, phase: Fraction, velocities: Range) -> Range:
-    """Return about the least and the greatest next phase."""
-    seen = image_phases(at, velocities)(phase)
-    if seen is None:
-        raise Unproved("in floating point a state sticks, or never impacts")
-    return Fraction(seen[0]), Fraction(seen[1])
+def function_of(at: Place) -> dict[str, list[str]]:
+    """Name the map of these oscillators, for a witness."""
+    sides = zip(("eta", "nu", "epsilon"), at.sides, strict=True)
+    return {name: texts(side) for name, side in sides}
 
 
-def _up(value: Fraction) -> Fraction:
-    """Round up to four decimal places."""
-    return -Fraction(-value * 10**4 // 1, 10**4)
+def turns_of(at: Place, box: Box) -> str:
+    """Return about how many turns the next phases have passed, seen from the middle of a box."""
+    eta, nu, epsilon, phase, gamma = (float(low + high) / 2 for low, high in (*at.sides, *box))
+    system = System(Fraction(eta), Fraction(nu))
+    speed = -system.side * (-eta * gamma - nu * math.cos(phase))
+    time, _ = next_impact(system, phase, epsilon * speed, float(HORIZON)) or (0.0, 0.0)
+    return str(math.floor((phase + time) / math.tau))
+
+
+def _is_smooth(at: Place, box: Box) -> bool:
+    try:
+        differential_on(flight(at.sides), box, (0,))
+    except FAILED:
+        return False
+    return True
+
+
+def _finer(cuts: Sequence[Fraction]) -> list[Fraction]:
+    """Halve parts until none is wider than it is worth to try."""
+    while wide := [part for part in pairwise(cuts) if part[1] - part[0] > _WIDEST]:
+        cuts = sorted({*cuts, *((low + high) / 2 for low, high in wide)})
+    return list(cuts)
+
+
+def _seems_barred(path: Sequence[Rectangle], above: bool) -> bool:
+    """Whether in floating point no orbit follows rectangles, as the rule barred-word sees it."""
+    (bound, heights), end = (path[0].box[0][above], path[0].box[1]), int(above)
+    for here, following in pairwise(path):
+        low, high = here.box[0]
+        seen = image_phases(place_of(here), heights)(min(max(bound, low), high))
+        if seen is None:
+            return False
+        bound, heights = Fraction(seen[end]), here.image[1]
+        last = following.box[0]
+    return bound < last[0] if above else bound > last[1]

@@ -11,8 +11,9 @@ from fractions import Fraction
 from proofs.search.evidence import FAILED, Proof
 from proofs.search.s33_cycles import State, prove_cycle, seen_from
 from proofs.search.s33_steps import ReboundProver
+from proofs.trusted.kernel.stable import StableCycle
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s33_restitution.cycles import StableCycle
+from proofs.trusted.paper.s33_restitution.horseshoes import place_of
 
 _UNIT = Fraction(1, 10**6)  # epsilons are multiples
 _FIRST, _LEAST = 250, 24  # units: the first step, and the last one
@@ -21,10 +22,10 @@ _MOST = 100  # tries each way
 
 def branch(prover: ReboundProver, known: StableCycle, tries: int = _MOST) -> Proof:
     """Prove a stable orbit for epsilon around one at which it is known, as far as it goes."""
-    start = known.at.sides[2][0]
-    at = replace(known.at, epsilon=(start, start))
+    start = place_of(known).sides[2][0]
+    at = replace(place_of(known), epsilon=(start, start))
     state = min(
-        ((_mean(phases), _mean(velocities)) for phases, velocities in known.boxes),
+        ((_mean(box[0]), _mean(box[1])) for box in known.boxes),
         key=lambda state: seen_from(at, state, len(known.boxes))[1],
     )
     return [
@@ -48,9 +49,9 @@ def _continued(
         middle = (epsilon + onward) / 2
         try:
             with prover.attempt():
-                at = replace(known.at, epsilon=(middle, middle))
+                at = replace(place_of(known), epsilon=(middle, middle))
                 near = seen_from(at, state, period)[0]
-                cycle = prove_cycle(prover, replace(known.at, epsilon=ends), near, period)
+                cycle = prove_cycle(prover, replace(place_of(known), epsilon=ends), near, period)
         except FAILED:
             size = size * 3 // 4
             if size < _LEAST:

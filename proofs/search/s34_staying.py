@@ -9,8 +9,9 @@ from fractions import Fraction
 from itertools import pairwise
 
 from intervals import Undecided
-from proofs.motion.brackets import middle, transversal_impact
+from proofs.motion.brackets import impact_time, middle
 from proofs.motion.candidate import next_impact
+from proofs.motion.witness import locate
 from proofs.search.evidence import FAILED, Proof
 from proofs.search.steps import Prover
 from proofs.trusted.flights import Motion, bits_for, phase_after
@@ -246,6 +247,7 @@ def _newton(prover: Prover, cells: Sequence[Range], accuracy: Fraction) -> Fract
 def _value(prover: Prover, phase: Fraction) -> tuple[Fraction, Fraction]:
     """Return about (f(phase), f'(phase))."""
     launch = prover.flights((phase, phase))
-    _, time = transversal_impact(launch, prover.bits, horizon=prover.horizon)
+    found = locate(launch, horizon=prover.horizon)
+    time = impact_time(launch, found.windows[0], prover.bits)
     slope = Motion(prover.at, (phase, phase), bits_for(time)).slope(time)
     return phase_after(phase, time, prover.bits)[0], middle(slope)

@@ -146,18 +146,6 @@ def leave_to_system() -> None:
 
 
 @contextmanager
-def uninterrupted() -> Iterator[None]:
-    """Take no SIGINT, repeated or not; nor do processes that begin in here."""
-    numbers = [signal.SIGINT, *([signal.SIGALRM] if _HAS_ALARM else [])]
-    before = [(number, signal.signal(number, signal.SIG_IGN)) for number in numbers]
-    try:
-        yield
-    finally:
-        for number, handler in before:
-            signal.signal(number, handler)
-
-
-@contextmanager
 def workers(count: int) -> Iterator[ProcessPoolExecutor]:
     """Yield a pool of processes; where the work inside is given up, they end at once with it."""
     import threading

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass
 from fractions import Fraction
+from itertools import product
 
 from proofs.benchmark.peers import Arithmetic, Range
 from proofs.motion.system import System
@@ -92,9 +93,8 @@ class ReboundCase(MapCase):
             horizon=self.horizon,
         )
         named = {"flight": found.flight, "phase": found.phase, "velocity": found.velocity}
-        for of, row in zip(("phase", "velocity"), found.jacobian, strict=True):
-            for by, bounds in zip(("phi", "gamma"), row, strict=True):
-                named[f"{of} by {by}"] = bounds
+        entries = product(("phase", "velocity"), ("phi", "gamma"))
+        named |= {f"{of} by {by}": x for (of, by), x in zip(entries, found.jacobian, strict=True)}
         return Answer(((named,),))
 
     def launched(self, phi: Fraction) -> Launched:

@@ -183,11 +183,9 @@ def arrival(start: Launch, now: Clock) -> tuple[Number, Number]:
 
 
 def return_map_derivative(
-    start: Launch, now: Clock, epsilon: Number, fall: Number | None = None
+    start: Launch, now: Clock, epsilon: Number
 ) -> tuple[tuple[Number, Number], tuple[Number, Number]]:
     """Return DF, rows (phase, velocity) by columns (phi, gamma), at an impact `now` after `start`.
-
-    fall: gap' there, if it is known.
 
     Theorem. Let S, C = sin(eta t), cos(eta t), K = kick and a = nu sin(phi) (1 + epsilon) -
     eta^2 (1 + nu sin(phi)). With D = d/dt - d/dphi, D Z = 0, D X = a S/eta + K C and
@@ -197,29 +195,9 @@ def return_map_derivative(
     gamma = -X'/eta: eta X p + (D X')/eta and eta X q - epsilon C. For epsilon = 0, p is `slope`.
     """
     push = start.side * launch_acceleration(start) + epsilon * start.lift
-    return _impact_derivative(start, now, push, epsilon, fall)
-
-
-def flight_derivative(
-    start: Launch, now: Clock, fall: Number | None = None
-) -> tuple[tuple[Number, Number], tuple[Number, Number]]:
-    """Return the derivatives of phase and velocity at an impact (rows) by phi and by the kick.
-
-    Theorem. The flight depends on epsilon and gamma by the kick alone. So the first column is that
-    of `return_map_derivative` for epsilon = 0 but for the kick, and the second one, as gamma moves
-    the kick by epsilon eta, its second column divided by that: for epsilon = 1/eta, itself.
-    """
-    push = start.side * launch_acceleration(start)
-    return _impact_derivative(start, now, push, 1 / start.eta, fall)
-
-
-def _impact_derivative(
-    start: Launch, now: Clock, push: Number, epsilon: Number, fall: Number | None
-) -> tuple[tuple[Number, Number], tuple[Number, Number]]:
-    """Return DF as `return_map_derivative` has it, its columns of the push a and of epsilon."""
     side, eta, _, _, kick = start
     big_s, big_c = now.mass_sin, now.mass_cos
-    fall = side * (gap(start, now, 1) if fall is None else fall)
+    fall = side * gap(start, now, 1)
     along = push / eta
     moved, turned = along * big_s, along * big_c
     if kick is not None:

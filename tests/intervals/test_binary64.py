@@ -84,7 +84,7 @@ def test_error_budget():
     z = s * s * (1 + U)
     cosine, g = z / 2, s * z / 6 + Fraction(1, 2**59)
     least = Fraction(math.floor(math.sin(math.pi / 128) * 10**6), 10**6)
-    of_a = (Fraction(11, 2) * cosine + s * Fraction(1, 2**59) / U) * Fraction(201, 100)
+    of_a = (Fraction(13, 2) * cosine + s * Fraction(1, 2**59) / U) * Fraction(201, 100)
     of_b = 4 * g + s**9 / factorial(9) / U + Fraction(3, 2**26)
     assert of_a + of_b / least < Fraction(2, 100)
     near = Fraction(1, 2**8) + 5 * (Fraction(1, 2**9) + z / 6 + Fraction(1, 2**26) + U)

@@ -16,9 +16,11 @@ _BLIND = {
     "work",
     "_windows",
     "_last",
+    "_taken",
     "_proved",
 }  # the checker's machinery inside of conclusions
 _MORE = {  # properties that sentences or rows rest on
+    "Rectangle": ("parts",),
     "Separation": ("returns",),
     "EntropyBound": ("entropy",),
     "Between": ("images", "full"),
@@ -55,7 +57,10 @@ def plain(value, share=0):
         names = [f.name for f in fields(value) if f.name not in _BLIND]
         record = {each: plain(getattr(value, each), share) for each in names if each != "at"}
         record |= {each: plain(getattr(value, each), share) for each in _MORE.get(name, ())}
-        record |= place(getattr(value, "at", None), share)
+        if "box" in record:  # of states; the other one is of oscillators
+            record["region"] = record["box"]
+        about = getattr(value, "at", None) or getattr(value, "place", None)
+        record |= place(about, share)
         return SimpleNamespace(**record, kind=name)
     raise TypeError(f"nothing is known about {type(value).__name__}")
 

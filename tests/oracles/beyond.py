@@ -30,6 +30,13 @@ def never_sticks(view, rng):
     return [] if _pushes(view).count(True) <= 1 else ["at some phases the mass sticks"]
 
 
+def only_touches(view, rng):
+    """After launches all around the mass comes back to the table without relative velocity."""
+    found = [next_impact(view.eta, view.nu, Fraction(k) / 2, 7) for k in range(12)]
+    told = [x for x in found if x != "touches"]
+    return [f"not a touch: {told[0]}"] if told else []
+
+
 def flights_end(view, rng):
     """After launches all around, the gap is below 0 before so many turns, or the mass sticks."""
     told = []
@@ -154,6 +161,7 @@ JUDGES = {
     "AtRest": at_rest,
     "Leaves": leaves,
     "NeverSticks": never_sticks,
+    "OnlyTouches": only_touches,
     "FlightsEnd": flights_end,
     "ComesToRest": comes_to_rest,
     "ReturningMotion": returning_motion,

@@ -200,7 +200,18 @@ def edit_function(functions: dict[str, Any], chance: random.Random) -> dict[str,
     changed = copy.deepcopy(functions[name])
     if path := place(changed, chance):
         put(changed, path, chance)
+    told, before = str(changed), str(functions[name])
+    if "gaps" in changed and ("at(" in told or told.count("D(") > before.count("D(")):
+        return functions  # the judge of flights reads derivatives of motions by the time alone
     return functions | {name: changed}
+
+
+def stretch(witness: dict[str, Any], chance: random.Random) -> None:
+    """Make an h-set longer or shorter in one of its directions."""
+    by, j = Fraction(chance.choice((11, 2, 9, 30)), 10), chance.randrange(len(witness["centre"]))
+    for row in witness["matrix"]:
+        row[j] = str(Fraction(row[j]) * by)
+    witness["inverse"][j] = [str(Fraction(x) / by) for x in witness["inverse"][j]]
 
 
 def edit_step(
@@ -215,6 +226,9 @@ def edit_step(
         steps[name] = chance.choice(alike)
         return
     steps[name] = copy.deepcopy(steps[name])
+    if steps[name]["rule"] == "h-set" and chance.random() < 0.5:
+        stretch(steps[name]["witness"], chance)
+        return
     path = place(steps[name]["witness"], chance)
     if path:
         put(steps[name]["witness"], path, chance)

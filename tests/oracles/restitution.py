@@ -37,37 +37,54 @@ def _entries(found, bounds):
             yield f"DF[{i}][{j}] is {found[i][j].str(12)}"
 
 
-def rebound(view, rng):
+def differential(view, rng):
     """All states are possible; phases, velocities and derivatives of their images."""
-    return _map_faults(view, rng, view.phases, view.phase)
+    return _map_faults(view, rng, view.region, view.values, view.matrix)
 
 
-def _map_faults(view, rng, phases, image):
+def _map_faults(view, rng, region, image, matrix):
     told = []
     if view.box[0][0] <= 0 or view.box[1][0] * view.box[1][1] <= 0 or not view.box[2][0] >= 0:
         return ["the box leaves the model"]
-    for state in _states(view.box, phases, view.velocities, rng):
+    for state in _states(view.box, *region, rng):
         found = _launched(state)
         if not isinstance(found, Impact):
             told += [found] if found else []
             continue
-        place, phase = f"({float(state[3]):.6g}, {float(state[4]):.6g})", found.turned(view.turns)
-        if image is not None and not inside(phase, image):
+        place, phase = (
+            f"({float(state[3]):.6g}, {float(state[4]):.6g})",
+            found.turned(view.turns[0]),
+        )
+        if not inside(phase, image[0]):
             told.append(f"the phase after {place} is {phase.str(12)}")
-        if not inside(found.velocity, view.velocity):
+        if not inside(found.velocity, image[1]):
             told.append(f"the velocity after {place} is {found.velocity.str(12)}")
-        told += _entries(found.derivative(), view.derivative)
+        told += _entries(found.derivative(), matrix) if matrix else []
     return told
 
 
 def rectangle(view, rng):
-    """The same on a rectangle, with the images of its left and right edges."""
-    if view.phases[0] >= view.phases[1]:
-        return ["a rectangle without width"]
-    told = _map_faults(view, rng, view.phases, None)
-    for end, image in zip(view.phases, (view.left, view.right), strict=True):
-        told += _map_faults(view, rng, (end, end), image)
-    return told
+    """The same on the parts of a rectangle, with the images of its left and right edges."""
+    (low, high), velocities = view.region
+    told, reached = [], low
+    for part in view.parts:
+        if part.region[0][0] != reached or part.region[1] != velocities:
+            told.append("parts that are not those of the rectangle")
+        reached = part.region[0][1]
+        told += differential(part, rng)
+    for end, image in zip((low, high), view.edges, strict=True):
+        told += _map_faults(view, rng, ((end, end), velocities), image, None)
+    return told if low < reached == high else [*told, "no parts of a rectangle"]
+
+
+def horseshoe(view, rng):
+    """What it says of V1 and V2 is true, if it is about the oscillator."""
+    if not hasattr(view, "nu"):
+        return []
+    sets = [SimpleNamespace(left=a[0], right=b[0], velocities=a[1]) for a, b in [view.boxes[:2]]]
+    if len(view.boxes) == 4:
+        sets = [SimpleNamespace(after_first=view.boxes[:2], after_second=view.boxes[2:])]
+    return rectangle_horseshoe(SimpleNamespace(**{**vars(view), "strips": sets[0]}), rng)
 
 
 def barred_word(view, rng):
@@ -84,11 +101,12 @@ def _shortfall(view, word, rng, shares=(0, 1, None)):
     The next phase increases with the phase; so the phases (at one velocity) whose images follow
     part of a word are an interval, found by bisection.
     """
-    least, sets = None, (view.strips.left, view.strips.right)
+    boxes = view.boxes if hasattr(view, "boxes") else _boxes(view.strips)
+    least, sets = None, [phases for phases, _ in boxes]
     for given in shares:
         share = Fraction(rng.random() if given is None else given)
         eta, nu, epsilon = (between(side, share) for side in view.box)
-        gamma = between(view.strips.velocities, Fraction(rng.choice((0, 1, rng.random()))))
+        gamma = between(boxes[0][1], Fraction(rng.choice((0, 1, rng.random()))))
         at = SimpleNamespace(eta=eta, nu=nu, epsilon=epsilon, gamma=gamma)
         low, high = (float(end) for end in sets[word[0]])
         for n in range(1, len(word)):
@@ -250,8 +268,9 @@ def edge_image(view, rng):
 
 
 JUDGES = {
-    "Rebound": rebound,
-    "RectangleMap": rectangle,
+    "Differential": differential,
+    "Rectangle": rectangle,
+    "Horseshoe": horseshoe,
     "BarredWord": barred_word,
     "RectangleHorseshoe": rectangle_horseshoe,
     "HorseshoeFamily": horseshoe_family,

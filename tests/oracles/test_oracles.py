@@ -60,9 +60,11 @@ def true_views():
 
 def by_hand():
     """Conclusions that none of the committed certificates needs."""
+    from proofs.trusted.paper.beyond.attractors import OnlyTouches
     from proofs.trusted.paper.s32_sets.moran import NoGap
+    from proofs.trusted.parameters import Place
 
-    return NoGap((F(1, 2), F(3, 5))), *curves()
+    return NoGap((F(1, 2), F(3, 5))), OnlyTouches(Place.plastic(F(1), F(-2))), *curves()
 
 
 def test_every_class_of_conclusions_has_an_oracle_and_is_proved_and_made_false():
@@ -154,8 +156,21 @@ def _cells(change):
 
 
 def _derivative(record):
-    (p, q), rows = record.derivative
-    record.derivative = (off(p), q), rows
+    (p, q), rows = record.matrix
+    record.matrix = (off(p), q), rows
+
+
+def _image(record):
+    record.values = off(record.values[0]), record.values[1]
+
+
+def _speed(record):
+    record.values = record.values[0], off(record.values[1])
+
+
+def _edge(record):
+    (phase, velocity), right = record.edges
+    record.edges = (off(phase), velocity), right
 
 
 def _window(record):
@@ -351,8 +366,18 @@ FALSE = {
         put("late", lambda old: (off(old[0]), off(old[1]))),
     ],
     "NuWindows": [_window, put("below", ())],
-    "Rebound": [offs("phase"), offs("velocity"), _derivative, put("turns", lambda old: old + 1)],
-    "RectangleMap": [offs("left"), offs("right"), offs("velocity"), _derivative],
+    "Differential": [_image, _speed, _derivative, put("turns", lambda old: (old[0] + 1,))],
+    "Rectangle": [
+        _edge,
+        put("parts", lambda old: old[1:]),
+        lambda record: [_derivative(part) for part in record.parts],
+        lambda record: [_speed(part) for part in record.parts],
+    ],
+    "Horseshoe": [
+        put("margin", F(1, 2)),
+        put("rates", lambda old: (F(99), *old[1:])),
+        put("boxes", lambda old: tuple((phases, (F(-9, 20), F(-2, 5))) for phases, _ in old)),
+    ],
     "BarredWord": [put("word", (0, 0)), put("short", lambda old: old + 1)],
     "RectangleHorseshoe": [
         put("margin", F(1, 2)),
@@ -423,6 +448,7 @@ FALSE = {
     "AtRest": [put("nu", F(1)), put("nu", F("-0.2"))],
     "Leaves": [put("nu", F("0.01"))],
     "NeverSticks": [put("nu", F(1)), put("eta", F("0.01"))],
+    "OnlyTouches": [put("nu", F(1)), put("eta", F("0.9"))],
     "FlightsEnd": [put("nu", F("-0.2"))],
     "ComesToRest": [put("nu", F(1)), put("nu", F("-0.2")), put("epsilon", F("0.999"))],
     "ReturningMotion": [

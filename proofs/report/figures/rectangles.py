@@ -10,9 +10,10 @@ from proofs.report.figures.figure import Figure, all_of, the
 from proofs.report.figures.style import BLACK, BLUE, RED, dots, proved_boxes, sheet
 from proofs.search.s33_rectangles import state_after
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.horseshoe import Horseshoe
+from proofs.trusted.kernel.rectangles import Rectangle
 from proofs.trusted.numbers import Range, show_range
-from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe
-from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap
+from proofs.trusted.paper.s33_restitution.horseshoes import shoes
 from proofs.trusted.paper.s33_restitution.rectangles import Strips
 from proofs.trusted.paper.s33_restitution.words import GoldenMean
 from proofs.trusted.parameters import Place
@@ -27,7 +28,8 @@ _EDGE = 40  # samples of a side
 def plot(proved: Context) -> Drawing:
     """Draw the printed rectangles and the corrected ones, each with their images."""
     printed = the(proved, GoldenMean)
-    corrected = next((x for x in all_of(proved, RectangleHorseshoe) if x.at == printed.at), None)
+    known = shoes(all_of(proved, Horseshoe))
+    corrected = next((x for x in known if x.at == printed.at), None)
     if corrected is None:
         raise Undecided("no horseshoe is proved at the printed epsilon")
     drawing, both = sheet(3.6, 1, 2, sharey=True)
@@ -45,35 +47,23 @@ def plot(proved: Context) -> Drawing:
     return drawing
 
 
-def images(proved: Context, at: Place, phases: Range, velocities: Range) -> list[Rebound]:
-    """Return the parts of a rectangle whose images are enclosed, those of the edges included."""
-    return [
-        part
-        for part in all_of(proved, Rebound)
-        if not isinstance(part, RectangleMap)
-        and (part.at, part.velocities) == (at, velocities)
-        and phases[0] <= part.phases[0]
-        and part.phases[1] <= phases[1]
-    ]
-
-
 def _strips(axes: Axes, proved: Context, at: Place, strips: Strips) -> None:
     """Draw V1 and V2, boxes around their images, and images of their sides in floating point."""
     points = []
-    for index, (phases, light, dark) in enumerate(
-        ((strips.left, "#A6CDE8", BLUE), (strips.right, "#F2BE97", RED)), start=1
+    for index, (box, light, dark) in enumerate(
+        zip(strips.boxes, ("#A6CDE8", "#F2BE97"), (BLUE, RED), strict=True), start=1
     ):
-        parts = images(proved, at, phases, strips.velocities)
-        whole: list[tuple[Range, Range]] = []
-        edges: list[tuple[Range, Range]] = []
-        for part in parts:
-            boxes = edges if part.phases[0] in phases and part.phases[1] in phases else whole
-            boxes.append((part.phase, part.velocity))
-        proved_boxes(axes, whole, light, f"image of V{index} lies in here, proved", lw=0)
-        label = "those of its left and right sides in here, proved"
-        proved_boxes(axes, edges, dark, label, lw=0)
-        _outline(axes, phases, strips.velocities, f"V{index}")
-        points += _boundary(at, phases, strips.velocities)
+        phases, velocities = box
+        for each in all_of(proved, Rectangle):
+            if (each.place, each.box) != (at, box):
+                continue
+            whole = [(part.values[0], part.values[1]) for part in each.parts]
+            edges = [(phase, velocity) for phase, velocity in each.edges]
+            proved_boxes(axes, whole, light, f"image of V{index} lies in here, proved", lw=0)
+            label = "those of its left and right sides in here, proved"
+            proved_boxes(axes, edges, dark, label, lw=0)
+        _outline(axes, phases, velocities, f"V{index}")
+        points += _boundary(at, phases, velocities)
     dots(axes, points, "images of the sides, sampled", 0.9)
 
 

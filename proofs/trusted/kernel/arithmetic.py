@@ -15,7 +15,7 @@ from operator import mul
 
 from proofs.trusted.kernel.meter import METER
 
-_NARROW, _MANY = 1 << 10, 512  # units, where there are many bits
+_NARROW, MANY = 1 << 10, 512  # units, where there are many bits
 _Ends = tuple[int, int]
 _MIXED = "enclosures of different precision do not mix"
 
@@ -89,7 +89,7 @@ class Enclosure:
                 raise ValueError(_MIXED)
             METER.get().spend(1 + (bits >> 7))
             a, b, c, d = self.lo, self.hi, value.lo, value.hi
-            if bits < _MANY:
+            if bits < MANY:
                 if c >= 0:
                     low, high = a * (c if a >= 0 else d), b * (d if b >= 0 else c)
                 elif d <= 0:
@@ -150,7 +150,7 @@ class Enclosure:
     def sincos(self) -> tuple[Enclosure, Enclosure]:
         """Return (sin X, cos X); the work counts whether or not the values are known."""
         bits, work = self.bits, 12 + max(self.bits, max(-self.lo, self.hi).bit_length())
-        if bits < _MANY:
+        if bits < MANY:
             METER.get().spend(2 * (8 + (3 * (work >> 6) ** 2 >> 2)))  # work / 4 steps
         else:
             METER.get().spend(8 + (work >> 5) + ((work >> 6) ** 2 >> 2))
@@ -212,7 +212,7 @@ def _sincos_between(lo: int, hi: int, bits: int) -> tuple[_Ends, _Ends]:
     """
     sin, cos, first, _ = _sincos(lo, bits)
     width, one = hi - lo, 1 << bits
-    if width == 0 or (width < _NARROW and bits >= _MANY):  # |sin'|, |cos'| <= 1
+    if width == 0 or (width < _NARROW and bits >= MANY):  # |sin'|, |cos'| <= 1
         ends = [(max(x - width, -one), min(y + width, one)) for x, y in (sin, cos)]
         return ends[0], ends[1]
     sin_hi, cos_hi, _, last = _sincos(hi, bits)
@@ -226,7 +226,7 @@ def _sincos_between(lo: int, hi: int, bits: int) -> tuple[_Ends, _Ends]:
 def _sincos(x: int, bits: int) -> tuple[_Ends, _Ends, int, int]:
     """Return the ends of sin, cos of x / 2^bits and bounds first <= floor(x / (pi/2)) <= last."""
     work = 12 + max(bits, abs(x).bit_length())
-    if bits < _MANY:
+    if bits < MANY:
         return _sincos_at(x, bits, work)
     halvings = isqrt(bits) >> 2
     return _sincos_by_halves(x, bits, work + 2 * halvings, halvings)
@@ -345,7 +345,7 @@ def log_of(x: Enclosure) -> Enclosure:
     bits, middle = x.bits, (x.lo + x.hi) >> 1
     if not (1 << bits) >> 90 < x.lo <= x.hi < 1 << (bits + 90):
         raise Unproved("the logarithm of an enclosure that leaves (2^-90, 2^90)")
-    if bits < _MANY:
+    if bits < MANY:
         y = rational(Fraction(math.log(middle / (1 << bits))), bits)
     else:
         up = bits >> 1

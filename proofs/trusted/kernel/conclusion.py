@@ -35,9 +35,9 @@ class Conclusion:
 
     @property
     def place(self) -> Place | None:
-        """The oscillators that it is about, its field `at`; None if it is about none."""
+        """The oscillators that it is about, its own or its map's `at`; None if there are none."""
         place: Place | None = getattr(self, "at", None)
-        return place
+        return place or getattr(getattr(self, "function", None), "at", None)
 
     @property
     def kind(self) -> str:

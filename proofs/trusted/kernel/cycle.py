@@ -89,7 +89,7 @@ def periodic_orbit(context: Context, reader: Reader) -> PeriodicOrbit:
     box = read_box(box_of, n)
     require_zero(Closing(function, period, turns), box, read_matrix(matrix_of, n))
     for points, matrix in tried(partial(_followed, function, box, period)):
-        if not any(_may_be_one(function, x, y) for x, y in combinations(points, 2)):
+        if not any(may_be_one(function, x, y) for x, y in combinations(points, 2)):
             return PeriodicOrbit(function, period, turns, box, _stability(matrix))
     raise Unproved("the points of the orbit are not proved to be different")
 
@@ -100,7 +100,7 @@ def _followed(function: Map, box: Box, period: int, bits: int) -> tuple[list[Poi
     return points, derivative(function, points)
 
 
-def _may_be_one(function: Map, x: Sequence[Enclosure], y: Sequence[Enclosure]) -> bool:
+def may_be_one(function: Map, x: Sequence[Enclosure], y: Sequence[Enclosure]) -> bool:
     """Whether two boxes may have a point in common, angles being taken modulo their periods."""
     periods = function.periods(x[0].bits)
     for place, (a, b) in enumerate(zip(x, y, strict=True)):

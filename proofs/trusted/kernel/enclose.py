@@ -17,7 +17,7 @@ from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range, show, show_range
 
 PRECISIONS = (64, 128, 256, 512, 1024, 2048, 4096)
-_LARGEST = 256  # results beyond 2^256 are not followed
+LARGEST = 256  # results beyond 2^256 are not followed
 _MAX_DEPTH = 60
 _LONGEST = 300  # characters of a box in a message
 _NO_DATUM = Fraction(0)
@@ -39,18 +39,19 @@ class Enclosures:
 
     def __init__(self, bits: int) -> None:
         self.bits = bits
+        self._limit = 1 << (bits + LARGEST)
 
     def apply(self, op: str, arguments: list[Enclosure], datum: Fraction) -> Enclosure:
         """Enclose op(arguments)."""
-        result = self._apply(op, arguments, datum)
-        if max(-result.lo, result.hi) >> (self.bits + _LARGEST):
+        arithmetic = ARITHMETIC.get(op)
+        result: Enclosure = (
+            arithmetic(*arguments) if arithmetic else self._other(op, arguments, datum)
+        )
+        if result.hi >= self._limit or -result.lo >= self._limit:
             raise Unproved("a value beyond 2^256")
         return result
 
-    def _apply(self, op: str, arguments: list[Enclosure], datum: Fraction) -> Enclosure:
-        if op in ARITHMETIC:
-            result: Enclosure = ARITHMETIC[op](*arguments)
-            return result
+    def _other(self, op: str, arguments: list[Enclosure], datum: Fraction) -> Enclosure:
         if op == "number":
             METER.get().spend(size(datum) >> 8)
             return rational(datum, self.bits)
@@ -214,7 +215,7 @@ def attempts(
         try:
             natural = map_.values(x)
             yield natural
-            values = list(map(Enclosure.meet, natural, _mean_value_form(map_, box, x)))
+            values = list(map(Enclosure.meet, natural, mean_value_form(map_, x)))
             yield values
         except Futile:
             if not before:
@@ -233,11 +234,15 @@ def is_narrower(values: Sequence[Enclosure], before: Sequence[Enclosure]) -> boo
     return 2 * now <= then << (values[0].bits - before[0].bits)
 
 
-def _mean_value_form(map_: Differentiable, box: Box, x: Sequence[Enclosure]) -> list[Enclosure]:
-    centre = centre_of(box)
-    values = map_.values(enclosed(point_box(centre), x[0].bits))
-    steps = [a - rational(m, a.bits) for a, m in zip(x, centre, strict=True)]
-    return [add(value, row, steps) for value, row in zip(values, map_.jacobian(x), strict=True)]
+def mean_value_form(map_: Differentiable, x: Sequence[Enclosure]) -> list[Enclosure]:
+    """Enclose f(m) + f'(X) (X - m), m the middle of X; a map of parameters may know better."""
+    own: Callable[..., list[Enclosure]] | None = getattr(map_, "mean_value_form", None)
+    if own is not None:
+        return own(x)
+    centre = [Enclosure(m := (a.lo + a.hi) >> 1, m, a.bits) for a in x]
+    steps = [a - m for a, m in zip(x, centre, strict=True)]
+    rows = zip(map_.values(centre), map_.jacobian(x), strict=True)
+    return [add(value, row, steps) for value, row in rows]
 
 
 def add(value: Enclosure, row: Sequence[Enclosure], column: Sequence[Enclosure]) -> Enclosure:

@@ -37,6 +37,19 @@ class Node(NamedTuple):
     datum: Fraction = Fraction(0)
 
 
+class Step(NamedTuple):
+    """A node to be evaluated: its place, its operation, its first and its last argument."""
+
+    place: int
+    op: str
+    first: int
+    last: int
+    node: Node
+
+
+Steps = Sequence[Step]
+
+
 @dataclass
 class Tape:
     """Nodes in the order of evaluation; equal nodes are stored once."""
@@ -45,6 +58,7 @@ class Tape:
     _places: dict[Node, int] = field(default_factory=dict)
     _orders: dict[tuple[int, ...], list[int]] = field(default_factory=dict)
     _derivatives: dict[tuple[int, int], int] = field(default_factory=dict)
+    _divided: dict[tuple[tuple[int, ...], int], tuple[Steps, Steps]] = field(default_factory=dict)
 
     def add(self, op: str, *arguments: int, datum: Fraction = Fraction(0)) -> int:
         """Return the place of a node, a new one where there is none like it."""
@@ -72,6 +86,24 @@ class Tape:
             METER.get().spend(len(needed))
             self._orders[roots] = sorted(needed)
         return self._orders[roots]
+
+    def divided(self, roots: tuple[int, ...], variable: int) -> tuple[Steps, Steps]:
+        """Return the nodes that roots need: those that do not change with a variable, the others.
+
+        Each in the order of evaluation.
+        """
+        if (roots, variable) not in self._divided:
+            changing, still, moving = set[int](), list[Step](), list[Step]()
+            for place in self.order(roots):
+                node = self.nodes[place]
+                own = node.op == "variable" and node.datum == variable
+                if own or not changing.isdisjoint(node.arguments):
+                    changing.add(place)
+                ends = (*node.arguments[:1], *node.arguments[-1:], 0, 0)
+                step = Step(place, node.op, ends[0], ends[1], node)
+                (moving if place in changing else still).append(step)
+            self._divided[roots, variable] = still, moving
+        return self._divided[roots, variable]
 
     def evaluate(self, roots: tuple[int, ...], numbers: Numbers[T], inputs: Sequence[T]) -> list[T]:
         """Return the roots' values at the inputs; every node that they need is evaluated."""

@@ -18,14 +18,17 @@ where all gaps are > 0 in between, and the others at the impact too.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cached_property
 from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.enclose import Box, Matrix, add, enclosed
+from proofs.trusted.kernel.evaluation import Partial
+from proofs.trusted.kernel.firstzero import FirstZero, Gap, shown
 from proofs.trusted.kernel.formulas import (
     MAX_VALUES,
     Circle,
@@ -33,7 +36,7 @@ from proofs.trusted.kernel.formulas import (
     Placer,
     same_form,
 )
-from proofs.trusted.kernel.gaps import stays_up
+from proofs.trusted.kernel.gaps import fall
 from proofs.trusted.kernel.head import optional, read_head, require_name, require_periods
 from proofs.trusted.kernel.trees import (
     Derivative,
@@ -43,22 +46,13 @@ from proofs.trusted.kernel.trees import (
     Variable,
     read_tree,
 )
-from proofs.trusted.numbers import Range, between, show
+from proofs.trusted.numbers import Range
 
 LATEST = Fraction(1024)
-_FIRST_STEP, _SHORTEST = Fraction(1, 4), Fraction(1, 2**30)
 _MOST_MOTIONS, _MOST_GAPS, _MOST_ORDERS = 6, 6, 4
+_ENOUGH = 1024  # moves by a smaller part of the width do not pay
+_COARSE = 64  # bits, in which a window is looked for first
 _REMEMBERED = 8  # windows of times, for boxes inside boxes
-
-
-class Gap(NamedTuple):
-    """A gap on the tape: its derivatives by the time, and the order of the first not 0 at launch.
-
-    order: 0 for a gap that is not 0 at launch.
-    """
-
-    orders: tuple[int, ...]
-    order: int
 
 
 class Motion(NamedTuple):
@@ -84,15 +78,17 @@ class Motion(NamedTuple):
 class Flight:
     """The map of first impacts: the gaps, then the values, as formulas of the state and the time.
 
-    motions: the equations that the forms solve.
+    motions: the equations that the forms solve. latest: until when impacts are looked for.
     """
 
     formulas: Formulas
     state: int
     gaps: tuple[Gap, ...]
     motions: tuple[Motion, ...]
-    _windows: list[tuple[list[Enclosure], Range]] = field(default_factory=list)
-    _last: list[tuple[list[Enclosure], Enclosure]] = field(default_factory=list)
+    latest: Fraction = LATEST
+    _windows: list[tuple[Sequence[Enclosure], Range]] = field(default_factory=list)
+    _last: list[Impact] = field(default_factory=list)
+    _taken: dict[int, list[int]] = field(default_factory=dict)  # steps of the last search, by bits
 
     @property
     def name(self) -> str:
@@ -138,11 +134,12 @@ class Flight:
 
     def values(self, x: Sequence[Enclosure]) -> list[Enclosure]:
         """Enclose the values on a box of states."""
-        return self.on(self.outcome, x, self.impact(x))
+        impact = self._impact(x)
+        return impact.launches.on(self.outcome, impact.time)
 
     def jacobian(self, x: Sequence[Enclosure]) -> Matrix:
-        """Enclose the derivative by the state."""
-        return self._slopes(x, range(self.state))
+        """Enclose the derivative in the state."""
+        return self._derivative(self._impact(x), range(self.state))
 
     @property
     def ranges(self) -> Box:
@@ -151,71 +148,183 @@ class Flight:
 
     def pinned(self) -> Flight:
         """Return the map at the middle of the ranges."""
-        return Flight(self.formulas.pinned(), self.state, self.gaps, self.motions)
+        return type(self)(self.formulas.pinned(), self.state, self.gaps, self.motions, self.latest)
 
     def sensitivity(self, x: Sequence[Enclosure]) -> Matrix:
         """Enclose the derivative by the parameters."""
-        return self._slopes(x, [self.state + 1 + k for k in range(len(self.ranges))])
+        places = range(self.state, self.state + len(self.ranges))
+        return self._derivative(self._impact(x), places)
 
-    def _slopes(self, x: Sequence[Enclosure], by: Sequence[int]) -> Matrix:
-        """Enclose F_y - F_t gap_y / gap_t for inputs y (implicit function theorem: gap_t < 0)."""
-        t, n, tape = self.impact(x), len(by), self.formulas.tape
-        roots = (self.gaps[0].orders[0], *self.outcome)
-        wanted = [tape.derivative(root, v) for root in roots for v in (*by, self.state)]
-        entries = self.on((*wanted, *roots), x, t)
-        (*gap, fall), *rows = (entries[i * (n + 1) : (i + 1) * (n + 1)] for i in range(len(roots)))
-        return [[a - row[n] * g / fall for a, g in zip(row, gap, strict=False)] for row in rows]
+    def mean_value_form(self, x: Sequence[Enclosure]) -> list[Enclosure]:
+        """Enclose the values by those in the middle of the states and of the parameters.
+
+        F(x, p) is in F(m, q) + F_x (x - m) + F_p (p - q), by the mean value theorem.
+        """
+        impact = self._impact(x)
+        launches = impact.launches
+        time = impact.time
+        enough = (time.hi - time.lo) >> 16
+        middle = Impact.sharp(launches.middle, time.range, enough)
+        values = middle.launches.on(self.outcome, middle.time)
+        rows = self._derivative(impact, launches.wide)
+        return [add(v, row, launches.steps) for v, row in zip(values, rows, strict=True)]
+
+    def _derivative(self, impact: Impact, places: Sequence[int]) -> Matrix:
+        """Enclose F_x - F_t gap_x / gap_t for some inputs x (implicit function theorem: gap_t < 0).
+
+        places: of these among the state and the parameters.
+        """
+        roots, n = (self.gaps[0].orders[0], *self.outcome), len(places) + 1
+        wanted = [root for each in roots for root in self.slopes(each, places)]
+        entries = impact.launches.on((*wanted, *roots), impact.time)
+        (*gap, fall), *rows = (entries[i * n : (i + 1) * n] for i in range(len(roots)))
+        return [[a - row[-1] * g / fall for a, g in zip(row, gap, strict=False)] for row in rows]
+
+    def slopes(self, root: int, places: Sequence[int]) -> list[int]:
+        """Return the derivatives of a root in some of the state and the parameters, and in time."""
+        on_tape = [k if k < self.state else k + 1 for k in places]  # the time is between them
+        return [self.formulas.tape.derivative(root, k) for k in (*on_tape, self.state)]
 
     def impact(self, x: Sequence[Enclosure]) -> Enclosure:
-        """Enclose the time of the impact, for all states in a box: see `_Search`."""
-        if not (self._last and _same(self._last[0][0], x)):
-            t = self._sharp(x, self._window(x))
-            self._last[:] = [(list(x), t)]
-        return self._last[0][1]
+        """Enclose the time of the impact, for all states in a box: see `FirstZero`."""
+        return self._impact(x).time
 
-    def _window(self, x: Sequence[Enclosure]) -> Range:
+    def _impact(self, x: Sequence[Enclosure]) -> Impact:
+        if not (self._last and _same(self._last[0].launches.states, x)):
+            launches = Launches(self, list(x), enclosed(self.formulas.ranges, x[0].bits))
+            self._last[:] = [Impact.sharp(launches, self._window(launches))]
+        return self._last[0]
+
+    def _window(self, launches: Launches) -> Range:
         for box, window in self._windows:
-            if _within(x, box):
+            if _within(launches.states, box):
                 return window
-        window = _Search(self, self.gaps[0], x).fall()
-        for gap in self.gaps[1:]:
-            _Search(self, gap, x).up_to(window[1])
-        self._windows[:] = [(list(x), window), *self._windows[: _REMEMBERED - 1]]
+        try:
+            window = self._searched(launches.coarse)
+        except Unproved:
+            if launches.coarse is launches:
+                raise
+            window = self._searched(launches)
+        self._windows[:] = [(launches.states, window), *self._windows[: _REMEMBERED - 1]]
         return window
 
-    def _sharp(self, x: Sequence[Enclosure], window: Range) -> Enclosure:
-        """Enclose the only zero of the gap in a window where gap_t < 0 (Newton's operator).
+    def _searched(self, launches: Launches) -> Range:
+        search = FirstZero(launches, self.gaps[0], self._taken.get(launches.states[0].bits, []))
+        window = search.window(self.latest)
+        for gap in self.gaps[1:]:
+            FirstZero(launches, gap).require_none(window[1])
+        self._taken[search.bits] = search.taken
+        return window
 
-        For x in X, m its middle, s in T: gap(x, t) = 0 = gap(m, s) + gap_x (x - m) + gap_t (t - s)
-        with derivatives on X x {s} and X x T (mean value theorem).
+
+@dataclass
+class Launches:
+    """All flights from a box of states, for all parameters of a box."""
+
+    flight: Flight
+    states: Sequence[Enclosure]
+    parameters: Sequence[Enclosure]
+
+    def __post_init__(self) -> None:
+        self._partial = Partial(self.flight.state)
+
+    def on(self, roots: Sequence[int], t: Enclosure) -> list[Enclosure]:
+        """Enclose formulas at times."""
+        x = [*self.states, t]
+        return self.flight.formulas.enclose(tuple(roots), x, self.parameters, self._partial)
+
+    @cached_property
+    def coarse(self) -> Launches:
+        """These flights and some around, in few bits."""
+        if self.states[0].bits <= _COARSE:
+            return self
+        sides = (
+            [Enclosure.of(*x.range, _COARSE) for x in xs] for xs in (self.states, self.parameters)
+        )
+        return Launches(self.flight, *sides)
+
+    @cached_property
+    def _inputs(self) -> list[Enclosure]:
+        return [*self.states, *self.parameters]
+
+    @cached_property
+    def wide(self) -> list[int]:
+        """The places of those states and parameters that are no points."""
+        return [k for k, side in enumerate(self._inputs) if side.hi - side.lo > 1]
+
+    @cached_property
+    def middle(self) -> Launches:
+        """The flight in the middle of these sides."""
+        middle = list(self._inputs)
+        for k in self.wide:
+            m = (middle[k].lo + middle[k].hi) >> 1
+            middle[k] = Enclosure(m, m, middle[k].bits)
+        n = self.flight.state
+        return Launches(self.flight, middle[:n], middle[n:])
+
+    @cached_property
+    def steps(self) -> list[Enclosure]:
+        """How far these sides reach from there."""
+        return [self._inputs[k] - self.middle._inputs[k] for k in self.wide]
+
+
+@dataclass
+class Impact:
+    """When all flights from a box end."""
+
+    launches: Launches
+    window: Range
+    time: Enclosure
+
+    @classmethod
+    def sharp(cls, launches: Launches, window: Range, enough: int = 0) -> Impact:
+        """Enclose the only zero of the gap in a window where gap_t < 0, by Newton's operator.
+
+        From the middle of what is known; for a box from both ends, plainly and then by the mean
+        value form; while that gains a part of it, and more than `enough` is left.
         """
-        bits, tape, gap = x[0].bits, self.formulas.tape, self.gaps[0]
-        t = Enclosure.of(*window, bits)
-        sides = [*x, *enclosed(self.formulas.ranges, bits)]
-        places = [*range(self.state), *range(self.state + 1, len(sides) + 1)]
-        slopes = tuple(tape.derivative(gap.orders[0], place) for place in places)
-        middle = [Enclosure(m := (a.lo + a.hi) >> 1, m, bits) for a in sides]
-        steps = [a - m for a, m in zip(sides, middle, strict=True)]
-        while True:
-            width = t.hi - t.lo
-            s = Enclosure(m := (t.lo + t.hi) >> 1, m, bits)
-            (fall,), row = self.on(gap.orders[1:2], x, t), self.on(slopes, x, s)
-            (value,) = self.on(gap.orders[:1], middle[: self.state], s, middle[self.state :])
-            if fall.hi >= 0:
-                raise Unproved(f"the impact is not proved transversal, {_place(x)}")
-            t = t.meet(s - add(value, row, steps) / fall)
-            if 2 * (t.hi - t.lo) >= width:
-                return t
+        t, is_box = Enclosure.of(*window, launches.states[0].bits), bool(launches.wide)
+        for is_plain in (True, False)[: 1 + is_box]:
+            width = 2 * (t.hi - t.lo)
+            while t.hi - t.lo > enough and _ENOUGH * (width - t.hi + t.lo) > width:
+                width, middle = t.hi - t.lo, (t.lo + t.hi) >> 1
+                t = _newton(launches, t, is_plain, *((t.lo, t.hi) if is_box else (middle,)))
+        return cls(launches, window, t)
 
-    def on(
-        self,
-        roots: Sequence[int],
-        x: Sequence[Enclosure],
-        t: Enclosure,
-        parameters: Sequence[Enclosure] = (),
-    ) -> list[Enclosure]:
-        """Enclose formulas on a box of states and times; parameters: instead of their ranges."""
-        return self.formulas.enclose(tuple(roots), [*x, t], parameters)
+
+def _newton(launches: Launches, t: Enclosure, is_plain: bool, *starts: int) -> Enclosure:
+    """Return what Newton's operator leaves of times, from some of them.
+
+    For x in X, s the start: gap(x, t) = 0 = gap(x, s) + gap_t (t - s), gap_t on X x T. gap(x, s) is
+    enclosed directly, and by gap(m, s) + gap_x (x - m), m the middle (mean value theorem).
+    """
+    gap, rate = launches.flight.gaps[0], _fall(launches, t)
+    slopes = launches.flight.slopes(gap.orders[0], launches.wide)[:-1]
+    for start in starts:
+        s = Enclosure(start, start, t.bits)
+        if is_plain:
+            (value,) = launches.on(gap.orders[:1], s)
+        else:
+            (value,) = launches.middle.on(gap.orders[:1], s)
+            height, *row = launches.on((gap.orders[0], *slopes), s)
+            value = height.meet(add(value, row, launches.steps))
+        t = t.meet(s - value / rate)
+    return t
+
+
+def _fall(launches: Launches, t: Enclosure) -> Enclosure:
+    """Enclose gap_t at times, and require that it is < 0."""
+    gap = launches.flight.gaps[0]
+
+    def gap_of(time: Range, order: int) -> Enclosure:
+        return launches.on(gap.orders[order : order + 1], Enclosure.of(*time, t.bits))[0]
+
+    (rate,) = launches.on(gap.orders[1:2], t)
+    if rate.hi >= 0:
+        rate = fall(gap_of, t.range)
+    if rate.hi >= 0:
+        raise Unproved(f"the impact is not proved transversal, {shown(launches.states)}")
+    return rate
 
 
 def _same(one: Sequence[Enclosure], two: Sequence[Enclosure]) -> bool:
@@ -228,85 +337,6 @@ def _within(x: Sequence[Enclosure], box: Sequence[Enclosure]) -> bool:
     return more >= 0 and all(
         b.lo << more <= a.lo and a.hi <= b.hi << more for a, b in zip(x, box, strict=True)
     )
-
-
-@dataclass
-class _Search:
-    """Goes through the times after launch, for all states in a box at once.
-
-    Invariant: the gap is > 0 on (0, low]. A step to `high` keeps it by one of these.
-    1. The first derivative that is not 0 at launch has been > 0 from 0 to `high`, the lower ones
-       being 0 there.
-    2. gap > 0 at both ends, so much that gap'' cannot bring it to 0 (`stays_up`).
-    3. gap_t < 0 from a time at which gap > 0 on, up to one at which gap < 0: there the gap has its
-       first zero, by Bolzano's theorem, and only one.
-    """
-
-    flight: Flight
-    gap: Gap
-    x: Sequence[Enclosure]
-
-    def fall(self) -> Range:
-        """Return times low < high, gap > 0 on (0, low], gap_t < 0 between, gap(high) < 0."""
-        for low, high, falls in self._steps(LATEST):
-            if falls and self._at(high).hi < 0:
-                return low, high
-        raise Unproved(f"no impact is proved before the time {show(LATEST)}, {_place(self.x)}")
-
-    def up_to(self, end: Fraction) -> None:
-        """Raise Unproved unless the gap is proved > 0 on (0, end]."""
-        for _, _, falls in self._steps(end):
-            if falls:
-                raise Unproved(f"another gap is not proved > 0 until the impact, {_place(self.x)}")
-
-    def _steps(self, end: Fraction) -> Iterator[tuple[Fraction, Fraction, bool]]:
-        """Iterate over low < high, and whether the gap falls between; else gap > 0 on (0, high]."""
-        low, step, leaving = Fraction(0), _FIRST_STEP, self.gap.order > 0
-        least, falling, is_new = self._at(low).lo, None, True
-        if not leaving and least <= 0:
-            raise Unproved(f"a gap is not proved > 0 at launch, {_place(self.x)}")
-        while low < end:
-            high = min(low + step, end)
-            try:
-                after = self._at(high).lo
-                leaves = leaving and self._of((low, high), self.gap.order).lo > 0
-                stays = leaves or (
-                    falling is None and stays_up(self._of, (low, high), min(least, after))
-                )
-                falls = not stays and low > 0 and self._of((low, high), 1).hi < 0
-            except Unproved:  # a formula is not proved defined for so long a time
-                leaves = stays = falls = False
-            if not (stays or falls):
-                if step < _SHORTEST:
-                    raise Unproved(f"{self._reason(low)}, {_place(self.x)}")
-                step /= 2
-                continue
-            if falls and falling is None and is_new and after <= 0 <= self._at(high).hi:
-                step, is_new = step * 3 / 4, False  # `high` is next to the impact: not the best end
-                continue
-            falling = None if stays or after > 0 else low if falling is None else falling
-            yield low if falling is None else falling, high, falling is not None
-            low, step, least, leaving, is_new = high, 2 * step, after, leaves, True
-
-    def _reason(self, low: Fraction) -> str:
-        """Say why no step after a time is proved."""
-        if low:
-            return f"a graze is not excluded at the time {show(round(low, 6))}"
-        if self.gap.order and self._of((low, low), self.gap.order).hi < 0:
-            return "the gap is < 0 right after launch: such a state does not leave the wall"
-        return "it is not proved that the gap is > 0 right after launch"
-
-    def _of(self, time: Range, order: int) -> Enclosure:
-        t = Enclosure.of(*time, self.x[0].bits)
-        return self.flight.on(self.gap.orders[order : order + 1], self.x, t)[0]
-
-    def _at(self, time: Fraction) -> Enclosure:
-        return self._of((time, time), 0)
-
-
-def _place(x: Sequence[Enclosure]) -> str:
-    """Write a box for a message, its ends rounded outward."""
-    return f"for states in {' x '.join(between(each.range) for each in x)}"
 
 
 # -- reading ---------------------------------------------------------------------------------------
@@ -324,7 +354,10 @@ def read_flight(name: str, reader: Reader) -> Flight:
         _require_solution(placer, time, motion, orders)
     gaps = [read_tree(each) for each in gaps_of.items(1, _MOST_GAPS)]
     values = [read_tree(each) for each in values_of.items(1, MAX_VALUES)]
-    left = tuple(_gap(placer, time, *each) for each in zip(gaps, gaps_of.items(), strict=True))
+    try:
+        left = tuple(read_gap(placer, time, each) for each in gaps)
+    except Unproved as error:
+        raise gaps_of.fail(str(error)) from None
     formulas = head.formulas(name, placer, [*gaps, *values])
     roots, count = formulas.roots, len(gaps)
     require_periods(reader, formulas, roots[count:], roots[:count])
@@ -394,17 +427,23 @@ def _require_explicit(tree: Tree, time: str, orders: Mapping[str, int]) -> None:
         _require_explicit(part, time, orders)
 
 
-def _gap(placer: Placer, time: str, tree: Tree, reader: Reader) -> Gap:
-    """Return a gap with its derivatives, up to the first that is not 0 at launch for all states."""
+def read_gap(placer: Placer, time: str, tree: Tree, launch: Tree | None = None) -> Gap:
+    """Return a gap with its derivatives, up to the one after the first that is not 0 at launch.
+
+    launch: a formula of that one there, where a plain one encloses it better. Raises Unproved where
+    it is another function, or there is none.
+    """
     tape, clock = placer.tape, placer.places[time]
     orders = [placer.place(tree)]
-    while len(orders) < 3:
-        orders.append(tape.derivative(orders[-1], int(tape.nodes[clock].datum)))
     for order in range(_MOST_ORDERS + 1):
-        if order == len(orders):
+        while len(orders) < max(3, order + 2):
             orders.append(tape.derivative(orders[-1], int(tape.nodes[clock].datum)))
         start = tape.moved([orders[order]], {clock: tape.number(0)})[0]
         if not same_form(tape, start, tape.number(0)):
-            placer.parts += orders[: max(order, 2)]
-            return Gap(tuple(orders), order)
-    raise reader.fail("the gap is 0 at launch, with all its first derivatives")
+            placer.parts += orders[:-1]
+            plain = start if launch is None else placer.place(launch)
+            if plain != start and not same_form(tape, plain, start):
+                raise Unproved("the gap does not leave 0 so")
+            is_constant = orders[1] == tape.number(0)
+            return Gap(tuple(orders), order, plain, is_constant)
+    raise Unproved("the gap is 0 at launch, with all its first derivatives")

@@ -134,7 +134,8 @@ class Flow:
     def _enclosed(self, x: Sequence[Enclosure]) -> tuple[Point, Matrix]:
         """Enclose values and derivatives, with no more digits than are worth it for a wide box."""
         w = [*x, *enclosed(self.ranges, x[0].bits)]
-        spare = max(0, max(side.hi - side.lo for side in w).bit_length() - _GUARD)
+        width = max(side.hi - side.lo for side in w).bit_length()
+        spare = max(0, min(width, w[0].bits) - _GUARD)
         box = [Enclosure(a.lo >> spare, -(-a.hi >> spare), a.bits - spare) for a in w]
         key = (box[0].bits, *(end for side in box for end in (side.lo, side.hi)))
         if key not in self._known:

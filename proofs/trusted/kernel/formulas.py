@@ -11,6 +11,7 @@ from typing import NamedTuple
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.enclose import Enclosures, Matrix, centre_of, enclosed, point_box
+from proofs.trusted.kernel.evaluation import Partial, enclose
 from proofs.trusted.kernel.expression import Tape
 from proofs.trusted.kernel.normalform import NormalForms, plus
 from proofs.trusted.kernel.trees import (
@@ -107,14 +108,17 @@ class Formulas:
         roots: tuple[int, ...],
         x: Sequence[Enclosure],
         parameters: Sequence[Enclosure] = (),
+        partial: Partial | None = None,
     ) -> list[Enclosure]:
         """Enclose any roots of the tape on a box, the parts being proved defined there.
 
-        parameters: their values, in place of all that their ranges allow.
+        parameters: their values, in place of all that their ranges allow. partial: what is known
+        from other values of one variable.
         """
         bits = x[0].bits
         inputs = (*x, *(parameters or enclosed(self.ranges, bits))) if self.ranges else x
-        return self.tape.evaluate((*roots, *self.parts), Enclosures(bits), inputs)[: len(roots)]
+        wanted = (*roots, *self.parts)
+        return enclose(self.tape, wanted, inputs, bits, partial)[: len(roots)]
 
 
 def read_formulas(*readers: Reader) -> Formulas:

@@ -28,9 +28,14 @@ def stays_up(
     if least <= 0:
         return False
     width = time[1] - time[0]
-    rise, square = 8 * least * width.denominator**2, width.numerator**2
-    known = bend is not None and rise > bend.hi * square
-    return known or rise > gap_of(time, 2).hi * square
+    parts = width.numerator, width.denominator
+    known = bend is not None and clears(least, bend.hi, *parts)
+    return known or clears(least, gap_of(time, 2).hi, *parts)
+
+
+def clears(least: Fraction | int, bend: Fraction | int, width: int, unit: int) -> bool:
+    """Whether least > w^2/8 bend, w = width / unit."""
+    return 8 * least * unit**2 > bend * width**2
 
 
 def brackets(gap_of: Gap, time: Range) -> bool:

@@ -106,7 +106,7 @@ def read_head(name: str, reader: Reader) -> Head:
     ranges = {each: ends for each, ends in sides.items() if each not in numbers}
     periods = dict(fields["periods"].entries()) if "periods" in fields else {}
     for each, period in periods.items():
-        if each not in state:
+        if each not in state[: len(fields["variables"].items())]:
             raise period.fail(f"a period of what is no variable: {each[:30]!r}")
     trees = {each: read_tree(period) for each, period in periods.items()}
     return Head(state, time, numbers, ranges, trees)

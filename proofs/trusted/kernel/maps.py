@@ -17,7 +17,6 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure
 from proofs.trusted.kernel.enclose import Box, Differentiable, Matrix, multiply
 from proofs.trusted.kernel.flight import read_flight
-from proofs.trusted.kernel.flow import read_flow
 from proofs.trusted.kernel.formulas import Circle
 from proofs.trusted.kernel.head import read_function, require_function_name
 from proofs.trusted.kernel.parametric import Parametric, chained, ranges_of
@@ -112,6 +111,8 @@ def read_map(name: str, reader: Reader, maps: Mapping[str, Map]) -> Map:
     if reader.has("maps"):
         return _read_composition(name, reader, maps)
     if reader.has("field"):
+        from proofs.trusted.kernel.flow import read_flow  # a thousand lines that others do not need
+
         return read_flow(name, reader)
     if reader.has("gaps"):
         return read_flight(name, reader)

@@ -21,7 +21,7 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.enclose import size
 from proofs.trusted.kernel.meter import METER
 
-_MOST_DIGITS = 20_000  # bits of a coefficient
+MOST_DIGITS = 20_000  # bits of a coefficient
 
 Exponent = Fraction | int
 Monomial = tuple[tuple[int, Exponent], ...]  # (generator, exponent not 0), generators increasing
@@ -175,7 +175,7 @@ class NormalForms:
             METER.get().spend((len(product) - before) * (4 + len(one) + longest))
         while places := {g for m in product for g, n in m if n > 1 and g in self._squares}:
             product = self._without_square(product, max(places))
-        if any(size(value) > _MOST_DIGITS for value in product.values()):
+        if any(size(value) > MOST_DIGITS for value in product.values()):
             raise Unproved("a coefficient with too many digits")
         return product
 

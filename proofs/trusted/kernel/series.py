@@ -14,9 +14,10 @@ from operator import mul
 from typing import NamedTuple
 
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
-from proofs.trusted.kernel.enclose import Enclosures
+from proofs.trusted.kernel.enclose import Enclosures, size
 from proofs.trusted.kernel.expression import Tape
 from proofs.trusted.kernel.meter import METER
+from proofs.trusted.kernel.normalform import MOST_DIGITS
 
 Ball = tuple[int, int]
 Form = dict[int, Fraction]  # a linear combination of nodes, by their places
@@ -53,7 +54,7 @@ class Program:
         for place in tape.order((*rates.values(), *parts)):
             op, arguments, datum = tape.nodes[place]
             form = self._form(op, [self._forms[i] for i in arguments], datum)
-            METER.get().spend(2 + len(form))
+            METER.get().spend(10 + 2 * len(form))  # and for the room that it takes
             self._forms[place] = {self._node(form): Fraction(1)} if len(form) > _LONGEST else form
         self.rates = {1 + x: _combination(self._forms[root]) for x, root in rates.items()}
         long = [n for node in (*self.nodes, *self.rates.values()) for n in node.factors]
@@ -136,6 +137,8 @@ def _sum(one: Form, two: Form, factor: Fraction | int) -> Form:
     total = dict(one)
     for place, value in two.items():
         total[place] = total.get(place, _ZERO) + factor * value
+    if any(size(value) > MOST_DIGITS for value in total.values()):
+        raise Unproved("a factor with too many digits")
     return {place: value for place, value in total.items() if value}
 
 

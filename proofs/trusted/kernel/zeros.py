@@ -176,7 +176,7 @@ def require_zero(
         if all(sides[k][0] < x.range[0] and x.range[1] < sides[k][1] for k, x in image.items()):
             return
         if any(x.range[1] < sides[k][0] or sides[k][1] < x.range[0] for k, x in image.items()):
-            raise Unproved("the Krawczyk operator maps the box away from itself")
+            raise Unproved("the Krawczyk operator does not map the box strictly inside, but away")
         if before and not is_narrower([*image.values()], before):
             break
         before = [*image.values()]

@@ -43,7 +43,7 @@ def test_a_state_agrees_with_the_general_code_and_the_sum(capsys, nu, epsilon, p
     for key, bounds in (("phase", general.phase), ("velocity", general.velocity)):
         low, high = (Fraction(found[key][side]) for side in ("lower", "upper"))
         assert low <= bounds[1] and bounds[0] <= high
-    (a, b), (c, d) = ([Fraction(sum(entry)) / 2 for entry in row] for row in general.jacobian)
+    a, b, c, d = (Fraction(sum(entry)) / 2 for entry in general.jacobian)
     assert abs(a * d - b * c - numbers[1]) < Fraction(1, 10**25)
     with mp.workdps(60):
         v, e, p, g = (mpf(x.numerator) / x.denominator for x in numbers)

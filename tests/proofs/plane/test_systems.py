@@ -11,7 +11,7 @@ from proofs.commands.atlas import main
 from proofs.plane.head import Here, run
 from proofs.plane.store import opened
 from proofs.trusted.atlas import Region, check_atlas
-from proofs.trusted.certificate import Malformed
+from proofs.trusted.certificate import Malformed, Reader
 from proofs.trusted.subjects import Systems
 from proofs.trusted.verify import Rejected
 
@@ -55,6 +55,15 @@ def is_stable(a, b):
 
 def test_a_region_is_read_as_it_is_written():
     assert Region.read(REGION.text) == REGION
+
+
+def test_all_functions_of_a_certificate_are_those_of_the_box():
+    known = REGION.subject.at(SIDES)
+    (function,) = known.values()
+    other = {**function, "values": ["x", "y"]}
+    for own, is_so in ((known, True), ({**known, "G": other}, False), ({"G": other}, False)):
+        certificate = Reader({"functions": own})
+        assert REGION.subject.is_about(certificate, None, SIDES) is is_so
 
 
 def test_cells_are_where_the_orbit_is_stable(lines):

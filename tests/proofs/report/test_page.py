@@ -11,7 +11,7 @@ from proofs.report import __main__ as command
 from proofs.report import theorem as _page
 from proofs.report.differences import facts, marked
 from proofs.report.inline import inlined, shortened
-from proofs.report.layout import enclosure, sentences
+from proofs.report.layout import enclosure, percents, sentences
 from proofs.report.ledger import ledger
 from proofs.report.theorem import sources, template, theorem
 from proofs.report.typeset import html, markdown
@@ -288,3 +288,16 @@ def test_what_differs_is_marked_on_both_sides_and_nothing_else():
 )
 def test_enclosures(bounds, shown):
     assert enclosure(*bounds) == shown
+
+
+@pytest.mark.parametrize(
+    ("shares", "expected"),
+    [
+        ({"V": "0.0909", "R": "0.8119", "U": "0.0972"}, ["9.0 %", "81.1 %", "9.9 %"]),  # not more
+        ({"V": "0.33333", "R": "0.66667", "U": "0"}, ["33.3 %", "66.7 %", "0.0 %"]),
+        ({"V": "1", "R": "0", "U": "0"}, ["100.0 %", "0.0 %", "0.0 %"]),
+        ({"V": "0.9999", "R": "0", "U": "0.0001"}, ["99.9 %", "0.0 %", "0.1 %"]),
+    ],
+)
+def test_percentages_add_up_and_say_no_more_than_is_proved(shares, expected):
+    assert list(percents(shares, "U").values()) == expected

@@ -20,7 +20,7 @@ def files(path):
 def test_a_claim_rests_on_what_its_steps_call():
     rests = files(REPORTS / "horseshoe.json")
     assert "slopes.py" in rests["H1"] and "slopes.py" not in rests["H16"]
-    assert "paper/s33_restitution/rebounds.py" in rests["N1"]
+    assert "kernel/rectangles.py" in rests["N1"] and "oscillator.py" in rests["N1"]
     assert not any("s33" in name for name in rests["H1"] | rests["H16"])
 
 

@@ -12,7 +12,8 @@ from proofs.trusted.certificate import render as text_of
 from proofs.trusted.kernel.meter import DEFAULT
 from proofs.trusted.rules import RULES
 from proofs.trusted.verify import Rejected, check, premises
-from tests.effort import EFFORT
+from tests.effort import EFFORT, examples
+from tests.oracles.edits import edit_anywhere
 from tests.oracles.judge import oracle
 from tests.proofs.trusted import corpus
 from tests.proofs.trusted.edits import lie
@@ -81,6 +82,18 @@ def test_all_mutations(name):
     assert counts["rejected"] + counts["malformed"] > counts["accepted"]
 
 
+@pytest.mark.parametrize(
+    "name", [pytest.param(x, marks=[pytest.mark.slow] * (x in SLOW)) for x in EXAMPLES]
+)
+def test_edits_anywhere_prove_nothing_false(name):
+    document, sentences = json.loads(text(name)), {*check(text(name)).sentences}
+    for k in range(examples(24 if name in SLOW else 90)):
+        made = text_of(edit_anywhere(document, random.Random(f"{name} {k}")))
+        verdict, _, report = outcome(made)
+        if verdict == "accepted" and {*report.sentences} - sentences:
+            assert not list(falsehoods(made)), made
+
+
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_the_examples_are_not_falsified(name):
     assert not list(falsehoods(text(name)))
@@ -145,6 +158,7 @@ def test_size_is_limited():
 STATUS = {"accepted": 0, "rejected": 1, "malformed": 2}
 
 
+@pytest.mark.every
 @pytest.mark.parametrize("name", corpus.CORPUS)
 def test_corpus(name, capsys):
     path, entry = corpus.path_of(name), corpus.CORPUS[name]

@@ -404,6 +404,7 @@ def edited(change):
     return witness
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("change", "reason"),
     [

@@ -284,6 +284,20 @@ def test_no_horseshoe(left, right):
     assert horseshoe(*both(), avoids()) == horseshoe(*both()[::-1], avoids()) is not None
 
 
+def test_cells_meet_at_ends_at_most():
+    cells = [slopes(("1.11", "1.28")), both()[1]]
+    with pytest.raises(Unproved, match="cells overlap"):
+        staying_set([phases("1.11", "1.32")], cells, [])
+
+
+def test_every_interval_of_a_region_is_covered():
+    region = [phases("1.11", "1.15"), phases("1.26", "1.32")]
+    with pytest.raises(Unproved, match="do not cover the region"):
+        staying_set(region, [*both()], [])
+    assert staying_set([region[0], phases("1.27", "1.32")], [*both()], []).full
+
+
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("low", "high"), [("1.15", "1.11"), ("1.1", "1.1"), ("6.2", "6.3"), ("-1", "1")]
 )

@@ -45,6 +45,7 @@ WORDS = {  # the fields that are texts, and which: None for those that only the 
     "PeriodicOrbit.stability": "attracting|a saddle|repelling",
     "Operation.op": OPERATION,
     "Node.op": OPERATION,
+    "Step.op": OPERATION,
     "Meeting.other": "fold|flip",
     "Repeller.words": "[0-9]+",
     "Digits.printed": r"[0-9]+(\.[0-9]+)?",

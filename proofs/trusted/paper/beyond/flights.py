@@ -6,7 +6,13 @@ from dataclasses import dataclass
 
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.paper.beyond.attractors import AtRest, NeverSticks, first_proved
+from proofs.trusted.paper.beyond.attractors import (
+    AtRest,
+    NeverSticks,
+    OnlyTouches,
+    first_proved,
+)
+from proofs.trusted.paper.beyond.returning import StickingMotion
 from proofs.trusted.paper.s34_circle.circle import basin, most
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts
 from proofs.trusted.parameters import Parameters, Place
@@ -38,14 +44,19 @@ class FlightsEnd(Conclusion):
 
 
 def _flies(of: Parameters, found: Found) -> Decision:
-    never, none = found.first(NeverImpacts), first_proved(of.place, FlightsEnd)
+    never = found.first(NeverImpacts) or first_proved(of.place, OnlyTouches)
+    none = first_proved(of.place, FlightsEnd)
     if never is not None:
         return decided(Verdict.VERIFIED, never)
     return undecided("none are proved") if none is None else decided(Verdict.REFUTED, none)
 
 
 def _comes(of: Parameters, found: Found) -> Decision:
-    none = first_proved(of.place, AtRest, NeverSticks)
+    """X10: a mass that sticks leaves at phi_s, so that one motion alone sticks and is periodic."""
+    none: Conclusion | None = first_proved(of.place, AtRest, NeverSticks)
+    motion = found.first(StickingMotion)
+    if none is None and motion is not None and motion.cells:  # two impacts a period, or more
+        none = motion
     if none is not None:
         return decided(Verdict.REFUTED, none)
     return basin(most, printed=False)(of, found)

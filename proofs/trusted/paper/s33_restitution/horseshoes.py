@@ -1,11 +1,12 @@
 """Section 3.3: from what F does on rectangles of states to horseshoes, for boxes of oscillators.
 
-Each theorem is a rule: a function from conclusions of earlier steps, named in the witness.
+The rules `rectangle` and `horseshoe` prove it of any map; here is what that means for F.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -13,24 +14,15 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.meter import METER
-from proofs.trusted.numbers import Range, ceil_text, floor_text, hull, show, show_range
-from proofs.trusted.paper.s33_restitution.cones import Cone, Rates, rates
-from proofs.trusted.paper.s33_restitution.rebounds import size
-from proofs.trusted.paper.s33_restitution.rectangles import (
-    ALL,
-    Blocks,
-    Maps,
-    Strips,
-    blocks,
-    crossing,
-    parts_of,
-    read_maps,
-    require_rising,
-    strips,
-)
+from proofs.trusted.kernel.horseshoe import Horseshoe
+from proofs.trusted.kernel.rates import Rates, rates, size
+from proofs.trusted.kernel.rectangles import Rectangle, require_together
+from proofs.trusted.numbers import Phases, Range, ceil_text, floor_text, hull, show, show_range
+from proofs.trusted.paper.s33_restitution.rectangles import Blocks, Strips, sets_of
 from proofs.trusted.parameters import Place
 from proofs.trusted.slopes import signed
+
+NAMES = "phi", "gamma"
 
 
 @dataclass(frozen=True)
@@ -51,7 +43,8 @@ class Hyperbolic(Conclusion):
             f"{self.strips.smooth}. The images of two states on one horizontal line of a rectangle "
             f"are at least {floor_text(self.grow, 2)} times as far apart (phases on the line), of "
             f"two on one vertical line at most {ceil_text(self.shrink, 3)} times. For every "
-            f"compact set K in the union of V1 and V2 with F(K) = K, F on K is {self.rates}."
+            "compact set K in the union of V1 and V2 with F(K) = K, F on K is "
+            f"{self.rates.said(*NAMES)}."
         )
 
     @property
@@ -60,19 +53,36 @@ class Hyperbolic(Conclusion):
         return f"horizontal distances grow at least {grow} times, vertical ones shrink to {shrink}"
 
 
-def hyperbolic(maps: Maps) -> Hyperbolic:
-    """Theorem. What `Hyperbolic.sentence` says, if `strips` and `rates` hold, and |p| > 1,
-    |q| + |s| < 1.
+def hyperbolic(maps: Sequence[Rectangle]) -> Hyperbolic:
+    """Theorem. What `Hyperbolic.sentence` says of V1 and V2, if `require_together` and `rates`
+    hold, and the entries of DF on parts, (p, q) and (r, s), obey |p| > 1, |q| + |s| < 1.
 
     Proof. 1. By the mean value theorem differences of images are D times those of the states, D a
     mean of DF, p and (q, s) are its entries in question. 2. An invariant cone field with such rates
     on a compact invariant set makes it hyperbolic.
     """
-    grow = min(signed(each.derivative[0][0], each.sign)[0] for each in maps)
-    shrink = max(size(each.derivative[0][1]) + size(each.derivative[1][1]) for each in maps)
+    require_together(maps)
+    strips, parts = strips_of(maps), [part for each in maps for part in each.parts]
+    grow = min(signed(each.slope, each.sign)[0] for each in maps)
+    shrink = max(size(part.matrix[0][1]) + size(part.matrix[1][1]) for part in parts)
     if grow <= 1 or shrink >= 1:
         raise Unproved("distances are not proved to grow and to shrink")
-    return Hyperbolic(maps[0].at, strips(maps), grow, shrink, rates(parts_of(maps)))
+    return Hyperbolic(place_of(maps[0]), strips, grow, shrink, rates(parts))
+
+
+def strips_of(maps: Sequence[Rectangle]) -> Strips:
+    """Return two rectangles of one height."""
+    (left, heights), (right, others) = (each.box for each in maps)
+    if heights != others:
+        raise Unproved("the rectangles are about different velocities")
+    return Strips(Phases(*left), Phases(*right), heights)
+
+
+def place_of(conclusion: Conclusion) -> Place:
+    """Return the oscillators; Unproved where it is about another map."""
+    if conclusion.place is None:
+        raise Unproved("a map that is not the oscillator's")
+    return conclusion.place
 
 
 # -- horseshoes ------------------------------------------------------------------------------------
@@ -96,7 +106,7 @@ class RectangleHorseshoe(Conclusion):
         least, most = self.at.sides[2]
         text = f"{self.strips.smooth}. {self.strips.CROSSED}; {self.brief}."
         if most > 0:
-            text += f" {FULL_SHIFT.format(self.rates)}"
+            text += f" {FULL_SHIFT.format(self.rates.said(*NAMES))}"
         if least == 0:
             text += f" {ONE_SIDED.format(floor_text(self.rates.expansion, 2))}"
         return text
@@ -120,62 +130,35 @@ ONE_SIDED = (
 )
 
 
-def horseshoe(context: Context, reader: Reader) -> RectangleHorseshoe:
-    """Rule `rectangle-horseshoe`: {rectangles: two or four names, cone: [slope, width]}.
+def restituting(shoe: Horseshoe) -> RectangleHorseshoe:
+    """Theorem. On V1 and V2 of a horseshoe as in `sets_of`, of oscillators, `RectangleHorseshoe`.
 
-    Two, N_0 left of N_1, have the same velocities, and all arrows i -> j. Of four, N_0 and N_1 are
-    for the states next after N_0 and N_2, N_2 and N_3 for those next after N_1 and N_3, epsilon is
-    > 0, velocities of N_0 and N_1 are apart from those of N_2 and N_3, N_0 lies left of N_1, N_2
-    left of N_3, and where an image may have a phase of one of N_0 to N_3 that is not next, its
-    velocity is not one of it. For other arrows see `golden-mean`.
-
-    Hypotheses: 1. All are about the same oscillators; in each the next phase increases with phi, or
-    in each that decreases epsilon > 0, and images do not reach around the circle. 2. Of each N_i
-    the left edge goes to the left and the right edge to the right of all next N_j, or the other way
-    around where the next phase decreases; images of parts of N_i that may have phases of a next
-    N_j have velocities in the interior of those of N_j. 3. The inequalities of `rates`.
-
-    Conclusion: let V1 be the union of those N_i on the left, V2 of those on the right, and A the
-    compact set of the states whose full orbits x_(n+1) = F(x_n) stay in V1 or V2. It lies in the
-    interiors of the N_i. Each two-sided sequence of 1 and 2 is the itinerary of exactly one full
-    orbit in A, which is hyperbolic. If epsilon > 0, F is one-to-one, and F on A is conjugate to the
-    two-sided shift. If epsilon = 0, phases alone are a map f, and each one-sided sequence is the
-    itinerary of exactly one phase.
-
-    Proof. 1. Call a compact connected part of N_i that meets its left and its right edge a crossing
-    set, as N_i is itself. By 2 its image, connected, reaches beyond each next N_j on both sides,
-    and where it has phases of N_j, it has velocities of N_j: so it contains a crossing set of N_j
-    (boundary bumping). So finite paths are followed, by compactness all. Full orbits in V1 and V2
-    follow the arrows: only next rectangles hold the images. 2. Let z_n be the differences of two
-    orbits of one itinerary, both in the same rectangle for each n; z_(n+1) is D times z_n, D a mean
-    of DF. Were one z_n != 0 in the cone, then all after it, by (1) of `rates`, and they would grow
-    without bound. So all z_n != 0 are outside, and by (2) |y| of z_n is at most contraction^k times
-    that of z_(n-k), for all k: z_n = 0. No arrow leads from an edge, and a state of A is an image:
-    by hypothesis 2 its velocity is in the interior. 3. F is one-to-one for epsilon > 0: from the
-    state before an impact the flight is run back to its launch, the last zero of the gap before;
-    phase and velocity there determine gamma, as epsilon != 0. The itinerary is then a continuous
-    bijection of compact sets. 4. For epsilon = 0 F depends on phi alone, p = f' > 1. See Gidea and
-    Zgliczynski, Covering relations for multidimensional dynamical systems, J. Differential
-    Equations 202 (2004).
+    Proof. Paths of arrows are the sequences of V1 and V2: of four rectangles, by the velocities,
+    which tell where a state comes from. F is one-to-one for epsilon > 0: from the state before an
+    impact the flight is run back to its launch, the last zero of the gap before; phase and velocity
+    there determine gamma, as epsilon != 0. For epsilon = 0 F depends on phi alone, and the next
+    phase increases.
     """
-    METER.get().spend(2000)  # all in fractions, which nobody counts
-    names, cone_of = reader.fields("rectangles", "cone")
-    maps, cone = read_maps(context, names, 4), Cone(*cone_of.numbers(2, 2))
-    if len(maps) == 2:
-        sets: Strips | Blocks = strips(maps)
-        margin = crossing(maps, ALL)
-    elif len(maps) == 4:
-        sets = blocks(maps)
-        margin = crossing(maps, ((0, 1), (2, 3)) * 2)
-    else:
-        raise names.fail("two or four rectangles")
-    if maps[0].at.sides[2][0] == 0:  # the sentence is about f' then, not about |f'|
-        require_rising(maps)
-    return RectangleHorseshoe(maps[0].at, sets, margin, rates(parts_of(maps), cone))
+    at = place_of(shoe)
+    if at.sides[2][0] == 0 and not shoe.is_rising:  # the sentence is about f' then, not about |f'|
+        raise Unproved("the next phase is not proved to increase with the phase")
+    return RectangleHorseshoe(at, sets_of(shoe), shoe.margin, shoe.rates)
+
+
+def shoes(found: Iterable[Conclusion]) -> list[RectangleHorseshoe]:
+    """Return what conclusions say of V1 and V2."""
+    proved = []
+    for each in found:
+        with suppress(Unproved):
+            if isinstance(each, RectangleHorseshoe | Horseshoe):
+                proved.append(restituting(each) if isinstance(each, Horseshoe) else each)
+    return proved
 
 
 def union(context: Context, reader: Reader) -> RectangleHorseshoe:
-    """Rule `horseshoe-union`: {parts: names of rectangle-horseshoes}.
+    """Rule `horseshoe-union`: {parts: names of horseshoes, or of unions}.
+
+    It is about oscillators: two functions of a file have no hull.
 
     Hypotheses: all are on the same rectangles; each is for a box of oscillators that agrees with
     the hull of those before it but for one side, where they meet. Conclusion: a horseshoe for the
@@ -184,19 +167,24 @@ def union(context: Context, reader: Reader) -> RectangleHorseshoe:
     one of the boxes, whose step is about it and these rectangles.
     """
     (names,) = reader.fields("parts")
-    parts = [context.step(name, RectangleHorseshoe) for name in names.items(least=1)]
+    parts = []
+    for name in names.items(least=1):
+        step = context.known.get(name.string())
+        if not isinstance(step, Horseshoe | RectangleHorseshoe):
+            raise name.fail("names no earlier step that is a horseshoe")
+        parts.append(restituting(step) if isinstance(step, Horseshoe) else step)
     first = parts[0]
     at, sets = first.at, first.strips
     for part in parts:
         sides = ("eta", "nu", "epsilon")
-        apart = [name for name in sides if getattr(at, name) != getattr(part.at, name)]
+        apart = [each for each in sides if getattr(at, each) != getattr(part.at, each)]
         if part.strips != sets or len(apart) > 1:
             raise Unproved("horseshoes are on other rectangles, or their boxes form no box")
-        for name in apart:
-            one, two = getattr(at, name), getattr(part.at, name)
+        for side in apart:
+            one, two = getattr(at, side), getattr(part.at, side)
             if one[1] < two[0] or two[1] < one[0]:
-                raise Unproved(f"the boxes leave a hole in {name}")
-            at = replace(at, **{name: hull([one, two])})
+                raise Unproved(f"the boxes leave a hole in {side}")
+            at = replace(at, **{side: hull([one, two])})
     margin = min(part.margin for part in parts)
     return RectangleHorseshoe(at, sets, margin, Rates.worst([part.rates for part in parts]))
 

@@ -9,15 +9,18 @@ from fractions import Fraction
 
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.differential import Differential
+from proofs.trusted.kernel.rectangles import Rectangle
+from proofs.trusted.kernel.words import BarredWord
 from proofs.trusted.numbers import Phases, Range, between, floor_text, show
 from proofs.trusted.paper.s33_restitution.horseshoes import (
     HorseshoeFamily,
     RectangleHorseshoe,
     hyperbolic,
+    shoes,
 )
-from proofs.trusted.paper.s33_restitution.rebounds import Rebound, RectangleMap
 from proofs.trusted.paper.s33_restitution.rectangles import Strips
-from proofs.trusted.paper.s33_restitution.words import BarredWord, GoldenMean
+from proofs.trusted.paper.s33_restitution.words import GoldenMean
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
@@ -70,14 +73,14 @@ class EdgeImage(Conclusion):
         return f"{self.brief}; {self.strips}."
 
 
-def edge_images(strips: Strips, states: Sequence[Rebound]) -> list[EdgeImage]:
+def edge_images(strips: Strips, states: Sequence[Differential]) -> list[EdgeImage]:
     """Return what is proved about single states at corners of rectangles."""
     images = []
     for each in states:
-        phase, velocity = each.phases[0], each.velocities[0]
-        if (each.phases, each.velocities) == ((phase, phase), (velocity, velocity)):
+        (phase, most), (velocity, highest) = each.box
+        if each.place is not None and (phase, velocity) == (most, highest):
             with suppress(Unproved):
-                images.append(EdgeImage(each.at, strips, phase, velocity, each.phase))
+                images.append(EdgeImage(each.place, strips, phase, velocity, each.values[0]))
     return images
 
 
@@ -104,12 +107,13 @@ def _full(of: Parameters, found: Found, *, edges_refute: bool = False) -> Decisi
     edges_refute: whether edges that fall short there refute the claim, too.
     """
     sets, box = stated(of)
-    nearby = found.all(RectangleHorseshoe)
+    nearby = shoes(found.here)
     for each in nearby:
         if each.strips == sets and box.inside(each.at):
             return decided(Verdict.VERIFIED, each, corrected=[each])
-    words = [x for x in found.elsewhere(BarredWord) if x.strips == sets and x.at.inside(box)]
-    edges = edge_images(sets, [x for x in found.elsewhere(Rebound) if x.at.inside(box)])
+    words = [x for x in found.elsewhere(BarredWord) if x.boxes == sets.boxes and _inside(x, box)]
+    states = [x for x in found.elsewhere(Differential) if _inside(x, box)]
+    edges = edge_images(sets, states)
     short = [each for each in edges if each.short > 0]
     corrected = (*found.all(GoldenMean), *nearby)
     known = {f"image_of_{x.edge}".replace(" ", "_"): x.image for x in edges if x.at == box}
@@ -122,12 +126,16 @@ def _full(of: Parameters, found: Found, *, edges_refute: bool = False) -> Decisi
     return Decision(Verdict.UNDECIDED, (), corrected, None, missing, known)
 
 
+def _inside(conclusion: Conclusion, box: Place) -> bool:
+    return conclusion.place is not None and conclusion.place.inside(box)
+
+
 def _hyperbolic(of: Parameters, found: Found) -> Decision:
-    sets = with_restitution(of)
-    maps = {x.phases: x for x in found.all(RectangleMap) if x.velocities == sets.velocities}
-    if not {sets.left, sets.right} <= set(maps):
+    boxes = with_restitution(of).boxes
+    maps = {x.box: x for x in found.all(Rectangle)}
+    if not {*boxes} <= {*maps}:
         return undecided("no proof about F on V1 and V2")
-    proved = hyperbolic((maps[sets.left], maps[sets.right]))
+    proved = hyperbolic([maps[box] for box in boxes])
     return decided(Verdict.VERIFIED, proved, corrected=[proved])
 
 
@@ -135,12 +143,12 @@ def _orbits(of: Parameters, found: Found) -> Decision:
     """N3: the golden mean shift, or the full one; beside it, on which boxes a full one holds."""
     printed = with_restitution(of)
     whole: list[GoldenMean | RectangleHorseshoe]
-    whole = [*found.all(GoldenMean), *found.all(RectangleHorseshoe)]
+    whole = [*found.all(GoldenMean), *shoes(found.here)]
     own = [each for each in whole if each.strips == printed]
     if not own:
         return undecided("no proof of which words orbits in the union of V1 and V2 follow")
-    wide = [each for each in found.elsewhere(RectangleHorseshoe) if each not in own]
-    states = found.elsewhere(Rebound)
+    wide = [each for each in shoes(found.everywhere) if each not in own]
+    states = found.elsewhere(Differential)
     sets = [each.strips for each in wide[:1] if isinstance(each.strips, Strips)]
     edges = [x for each in sets for x in edge_images(each, states) if x.short > 0]
     return decided(Verdict.VERIFIED, own[0], corrected=[*own, *wide, *edges])
@@ -151,7 +159,7 @@ def _family(of: Parameters, found: Found) -> Decision:
     if of.epsilon is None:
         return undecided("epsilon is needed: without restitution see H7 to H9")
     point = (of.eta, of.eta), (of.nu, of.nu)
-    here = [x for x in found.elsewhere(RectangleHorseshoe) if x.at.sides[:2] == point]
+    here = [x for x in shoes(found.everywhere) if x.at.sides[:2] == point]
     proved = HorseshoeFamily(tuple(sorted(here, key=lambda each: each.at.sides[2])))
     most = proved.at.sides[2][1]
     if most <= of.epsilon:

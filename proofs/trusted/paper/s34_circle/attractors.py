@@ -12,8 +12,9 @@ from itertools import pairwise
 
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.stable import StableCycle
 from proofs.trusted.numbers import Range, between, common, hull, show_range, within
-from proofs.trusted.paper.s33_restitution.cycles import StableCycle
+from proofs.trusted.paper.s33_restitution.horseshoes import place_of
 from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
@@ -37,15 +38,15 @@ class TwoAttractors(Conclusion):
     cycles: tuple[StableCycle, ...]
 
     def __post_init__(self) -> None:
-        if not self.cycles or self.cycles[0].at.sides[2][0] <= 0:
+        if not self.cycles or place_of(self.cycles[0]).sides[2][0] <= 0:
             raise Unproved("no stable cycle for epsilon > 0")
         for each in self.cycles:
             if each.rounds > 1:
                 raise Unproved("an orbit that contracts a box after several rounds only")
-            if each.at.sides[:2] != self.motion.at.sides[:2]:
+            if place_of(each).sides[:2] != self.motion.at.sides[:2]:
                 raise Unproved("the motions are about different oscillators")
         for before, after in pairwise(self.cycles):
-            if before.at.sides[2][1] != after.at.sides[2][0]:
+            if place_of(before).sides[2][1] != place_of(after).sides[2][0]:
                 raise Unproved("the cycles leave a hole in epsilon, or overlap")
             if len(before.boxes) != len(after.boxes):
                 raise Unproved("the cycles have different periods")
@@ -57,8 +58,8 @@ class TwoAttractors(Conclusion):
     @property
     def at(self) -> Place:
         """The oscillators."""
-        first, last = (self.cycles[k].at.sides[2] for k in (0, -1))
-        return replace(self.cycles[0].at, epsilon=(first[0], last[1]))
+        first, last = (place_of(self.cycles[k]).sides[2] for k in (0, -1))
+        return replace(place_of(self.cycles[0]), epsilon=(first[0], last[1]))
 
     @property
     def sentence(self) -> str:
@@ -96,10 +97,10 @@ def _coexist(of: Parameters, found: Found) -> Decision:
     """G16: all stable cycles at this eta and nu, in the order of epsilon."""
     at = (of.eta, of.eta), (of.nu, of.nu)
     motions = [x for x in found.elsewhere(SuperstableMotion) if x.at.sides[:2] == at]
-    cycles = [x for x in found.elsewhere(StableCycle) if x.at.sides[:2] == at]
+    cycles = [x for x in found.elsewhere(StableCycle) if place_of(x).sides[:2] == at]
     if not motions or not cycles:
         return undecided("no motion is known that comes to rest, or no stable cycle")
-    cycles.sort(key=lambda each: each.at.sides[2])
+    cycles.sort(key=lambda each: place_of(each).sides[2])
     both = TwoAttractors(min(motions, key=lambda x: x.epsilons), tuple(cycles))
     if not both.at.sides[2][0] < both.at.sides[2][1]:
         return undecided("a stable cycle is known at one epsilon only")

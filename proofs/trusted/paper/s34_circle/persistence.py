@@ -17,9 +17,9 @@ from proofs.trusted.flights import Motion, bits_for, lifted
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.differential import Differential
+from proofs.trusted.kernel.stable import StableCycle
 from proofs.trusted.numbers import Range, between, ceil_text, show, show_range, within
-from proofs.trusted.paper.s33_restitution.cycles import StableCycle
-from proofs.trusted.paper.s33_restitution.rebounds import Rebound
 from proofs.trusted.paper.s34_circle.bounces import State, bounced, settle
 from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.parameters import PAPER, Parameters, Place
@@ -121,7 +121,7 @@ class Cell(NamedTuple):
 
 
 def superstable_motion(
-    arc: Separation, box: Box, impacts: Sequence[Rebound], cells: Sequence[Cell]
+    arc: Separation, box: Box, impacts: Sequence[Differential], cells: Sequence[Cell]
 ) -> SuperstableMotion:
     """Theorem. Let the mass stick exactly on an arc until phi_s, and the state at which the flight
     from phi_s ends be inside a box of states. Let cells have intervals of epsilon, each from the
@@ -144,11 +144,12 @@ def superstable_motion(
         raise Unproved("the flight from phi_s is not proved to end in the first box")
     boxes = [box]
     for each in impacts:
-        if each.at.sides[:2] != arc.at.sides[:2] or not within(epsilons, each.at.sides[2]):
+        at = each.place
+        if at is None or at.sides[:2] != arc.at.sides[:2] or not within(epsilons, at.sides[2]):
             raise Unproved("the steps are about different oscillators")
-        if not all(map(within, boxes[-1], (each.phases, each.velocities))):
+        if not all(map(within, boxes[-1], each.box)):
             raise Unproved("a box is not proved to be mapped into the next")
-        boxes.append((each.phase, each.velocity))
+        boxes.append((each.values[0], each.values[1]))
     state = landed(arc, boxes[-1], bits)
     for cell in cells:
         last, (_, fast) = bounced(arc.at, state, cell.epsilons, cell.bounces, bits)
@@ -190,14 +191,14 @@ def landed(arc: Separation, box: Box, bits: int) -> State:
 
 
 def prove_superstable_motion(context: Context, reader: Reader) -> SuperstableMotion:
-    """Rule `superstable-motion`: {separation, box: [phases, velocities], impacts: names of rebound
-    steps, cells: [{epsilon: [e, e'], bounces: [[t, t'], ...], ratio, rest}]}.
+    """Rule `superstable-motion`: {separation, box: [phases, velocities], impacts: names of
+    differential steps, cells: [{epsilon: [e, e'], bounces: [[t, t'], ...], ratio, rest}]}.
 
     Conclusion: `superstable_motion`.
     """
     arc_of, box_of, impacts_of, cells_of = reader.fields("separation", "box", "impacts", "cells")
     phases, velocities = (side.range() for side in box_of.items(2, 2))
-    impacts = [context.step(name, Rebound) for name in impacts_of.items(most=_MOST_IMPACTS)]
+    impacts = [context.step(name, Differential) for name in impacts_of.items(most=_MOST_IMPACTS)]
     cells = []
     for cell in cells_of.items(least=1):
         epsilons, bounces, ratio, rest = cell.fields("epsilon", "bounces", "ratio", "rest")

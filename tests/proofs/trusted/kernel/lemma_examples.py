@@ -243,7 +243,34 @@ def rattle():
     return file
 
 
+def rectangles():
+    """Two rectangles that a cubic map takes across both, a word without orbits, an attractor."""
+    maps = {"F": ["16*x**3 - 8*x + y/50", "x/20"], "G": ["33/10*x*(1 - x) + y/100", "x/50"]}
+    file = SymbolicLemmas({name: (["x", "y"], values) for name, values in maps.items()})
+
+    def rectangle(low, high, cuts):
+        ends = [
+            Fraction(low) + (Fraction(high) - Fraction(low)) * k / cuts for k in range(cuts + 1)
+        ]
+        box = [[low, high], ["-1/4", "1/4"]]
+        return file.add(
+            "rectangle", {"function": "F", "box": box, "cuts": list(map(str, ends[1:-1]))}
+        )
+
+    both = [rectangle("-4/5", "-3/5", 16), rectangle("3/5", "4/5", 16)]
+    arrows = [["1", "2"], ["1", "2"]]
+    file.add("horseshoe", {"rectangles": both, "arrows": arrows, "cone": ["0", "1"]})
+    beyond = rectangle("19/25", "4/5", 4)
+    file.add("barred-word", {"rectangles": [beyond], "word": ["1", "1"], "from": "below"})
+    box = [["3/5", "4/5"], ["-1/4", "1/4"]]
+    file.add("differential", {"function": "F", "box": box, "bits": "64"})
+    box = [["41/50", "83/100"], ["0", "1/50"]]
+    file.add("stable-cycle", {"function": "G", "box": box, "period": "2", "rounds": "2"})
+    return file
+
+
 EXAMPLES = {
+    "rectangles": rectangles,
     "ball": ball,
     "rattle": rattle,
     "flips": flips,

@@ -230,6 +230,7 @@ TRUTHS = [
     ("y' = y", moving("x*exp(t)", "y", "x", values=["y/x"]), [("1/10", "1/5")], 7.389056),
     ("y' = 2 t", moving("t**2", "2*t", "0", values=["y"]), STATE, 4),
     ("a ball", ball(values=["v", "phi"], periods={}), LAUNCH, 2),
+    ("at rest or faster", clock(gaps=["x*t + t**2 - t**3"], values=["t"]), [("0", "0")], 1),
 ]
 NOT_0 = "a gap is not proved > 0 at launch"
 LEAVES, GRAZE = "right after launch", "a graze is not excluded at the time 1,"
@@ -244,6 +245,7 @@ LIES = [  # what is false, the function, a box of states, the reason
     ("a double zero at launch", BALL, [("0", "0"), ("1", "1")], LEAVES),
     ("a launch that may be both", BALL, [("1/2", "1/2"), ("1/2", "1")], LEAVES),
     ("a wrong order of leaving", clock(gaps=["-t**3 + t**4"]), STATE, LEAVES),
+    ("slower than at rest", clock(gaps=["t**2 - x*t - t**3"]), STATE, LEAVES),
     ("a gap that is 0", clock(gaps=["0*t"]), STATE, "the gap is 0 at launch"),
     ("a graze before", clock(gaps=["(t - 1)**2*(2 - t)"]), STATE, GRAZE),
     ("a graze as the impact", clock(gaps=["(t - 1)**2"]), STATE, GRAZE),
@@ -253,7 +255,7 @@ LIES = [  # what is false, the function, a box of states, the reason
     ("another wall first", clock(gaps=["2 - t", "1 - t"]), STATE, OTHER),
     ("another wall at once", clock(gaps=["2 - t", "2 - t"]), STATE, OTHER),
     ("another wall for some", clock(gaps=["2 - t", "2 + x - t"]), STATE, OTHER),
-    ("another wall grazed", clock(gaps=["2 - t", "(t - 1)**2"]), STATE, GRAZE),
+    ("another wall grazed", clock(gaps=["2 - t", "(t - 1)**2"]), STATE, OTHER),
     ("a gap undefined between", clock(gaps=["2 - t + 0*(1/(t - 1))"]), STATE, GRAZE),
     ("another gap undefined", clock(gaps=["2 - t", "3 - t + 0*(1/(t - 1))"]), STATE, GRAZE),
     ("another equation", moving("t**2", "3", "0", "0"), STATE, SOLVES),

@@ -316,8 +316,20 @@ TOUCHED, NEVER = "whether the section is crossed or touched", "the section is no
 STAYS = "it is not proved that the gaps stay > 0"
 INTO, PERIOD = "no derivatives of what flows", "not proved to respect the period"
 STATE = [("0", "0"), ("0", "0"), ("0", "0")]
+
+
+def tower():
+    """3, squared 40 times, by substitutions."""
+    text = "3"
+    for _ in range(40):
+        text = f"at(k*k, k={text})"
+    return text
+
+
 LIES = [  # what is false, the function, a box, the reason
     ("beyond blow-up", line("x**2", {"time": "2"}), ONE, "up to the time 0.99999"),
+    ("a factor of a billion digits", line(f"{tower()}*x", {"time": "1"}), ONE, "too many digits"),
+    ("a state as an angle", circle(periods={"x": "2*pi"}), ONE, "what is no variable"),
     ("to blow-up", line("x**2", {"time": "1"}), ONE, NO_STEP),
     ("blow-up for some", line("x**2", {"time": "1"}), UNIT, NO_STEP),
     ("beyond the end", line("-1/x", {"time": "1"}), ONE, "up to the time 0.4999"),
@@ -364,6 +376,13 @@ LIES = [  # what is false, the function, a box, the reason
     ("a wall that counts turns", {**DUFFING, "end": section("s/100 - x")}, STATE[:2], PERIOD),
     ("a start that counts", {**DUFFING, "start": ["0", "v", "a/2"]}, STATE[:2], PERIOD),
 ]
+
+
+def test_a_box_as_wide_as_all_is_enclosed():
+    """With as many digits as any: x e^-1 for x up to 10^60."""
+    values, _ = enclosures(line("-x", {"time": "1"}), [("0", "1" + "0" * 60)])
+    low, high = values[0].range
+    assert low <= 0 and 3 * high > 10**60
 
 
 @pytest.mark.parametrize(("data", "box", "reason"), [x[1:] for x in LIES], ids=[x[0] for x in LIES])

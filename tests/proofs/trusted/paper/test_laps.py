@@ -291,15 +291,15 @@ GRAPH_LIES = {
     ),
     ("a weight 0", "weights > 0"): lambda w: w["weights"].__setitem__(0, "0"),
     ("a state left out", "multiply the weights"): lambda w: (w["states"].pop(), w["weights"].pop()),
-    ("no state with all phases", "no state contains"): lambda w: w.update(
-        states=[[low, str(min(F(high), F(2)))] for low, high in w["states"]]
-    ),
     ("a short vector", "48 entries"): lambda w: w["weights"].pop(),
     ("an image left out", "no known image"): lambda w: w["images"].pop(),
     ("an image moved", "signs"): lambda w: w["images"][0].update(
         time=[add(1)(x) for x in w["images"][0]["time"]]
     ),
     ("an image of no phase", "on no branch"): lambda w: w["images"][0].update(phase="3"),
+    ("no state with all phases", "no state contains"): lambda w: w.update(
+        states=[[low, str(min(F(high), F(2)))] for low, high in w["states"]]
+    ),
 }
 
 

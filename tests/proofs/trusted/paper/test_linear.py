@@ -135,6 +135,7 @@ def at(slopes, ratios=None):
     return replace(PAPER, slopes=tuple(map(Fraction, slopes)), ratios=pair, printed_s0=None)
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("slopes", "ratios", "expected"),
     [

@@ -11,8 +11,9 @@ import pytest
 from proofs.search import s33_family
 from proofs.shell.groups import produce
 from proofs.trusted.certificate import Malformed, render
+from proofs.trusted.kernel.horseshoe import Horseshoe
 from proofs.trusted.paper import find
-from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe
+from proofs.trusted.paper.s33_restitution.horseshoes import shoes
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verify import Rejected, check
 from tests.oracles.sources import conclusions
@@ -33,10 +34,6 @@ def family():
 def known(family):
     """What the checker concludes from it."""
     return list(conclusions(family)[1].values())
-
-
-def shoes(known):
-    return [each for each in known if isinstance(each, RectangleHorseshoe)]
 
 
 @pytest.mark.slow
@@ -113,7 +110,7 @@ def test_beyond_what_is_proved_nothing_is_decided(known):
     assert "proved up to epsilon = 0.06 only" in decision.missing
     for of in (replace(PAPER, eta=Fraction("0.2122")), replace(PAPER, epsilon=None)):
         assert row.decide(of, known).verdict.value == "UNDECIDED"
-    for missing in shoes(known):
+    for missing in (each for each in known if isinstance(each, Horseshoe)):
         without = [each for each in known if each != missing]
         assert row.decide(replace(PAPER, epsilon=Fraction("0.05")), without).missing
 
@@ -148,7 +145,7 @@ def of_rule(certificate, rule):
 )
 def test_horseshoes_forged(family, field, change):
     def edit(certificate):
-        one = of_rule(certificate, "rectangle-horseshoe")[-1]
+        one = of_rule(certificate, "horseshoe")[-1]
         one[field] = change(one[field])
 
     forged(family, edit)
@@ -160,10 +157,10 @@ def test_oscillators_left_out(family, share):
     reached = str(FAR)
 
     def edit(certificate):
-        for one in of_rule(certificate, "rebound"):
-            if one["epsilon"][1] == reached:
-                low, high = map(Fraction, one["epsilon"])
-                one["epsilon"][0] = str(high - share * (high - low))
+        for one in of_rule(certificate, "rectangle"):
+            if (ends := one["function"]["epsilon"])[1] == reached:
+                low, high = map(Fraction, ends)
+                ends[0] = str(high - share * (high - low))
 
     forged(family, edit)
 
@@ -172,11 +169,11 @@ def test_oscillators_left_out(family, share):
 @pytest.mark.parametrize("by", [Fraction(1, 100), Fraction(-1, 100)])
 def test_velocities_moved(family, end, by):
     """Rectangles moved in velocity do not hold the images any more."""
-    wanted = of_rule(family, "rebound")[-1]["velocities"]
+    wanted = of_rule(family, "rectangle")[-1]["box"][1]
 
     def edit(certificate):
-        for one in of_rule(certificate, "rebound"):
-            if one["velocities"] == wanted:
-                one["velocities"] = [str(Fraction(x) + by) for x in wanted]
+        for one in of_rule(certificate, "rectangle"):
+            if one["box"][1] == wanted:
+                one["box"][1] = [str(Fraction(x) + by) for x in wanted]
 
     forged(family, edit)

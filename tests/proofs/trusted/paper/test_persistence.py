@@ -20,10 +20,9 @@ from proofs.search.s34_persistence import prove
 from proofs.shell.groups import certificate, decide
 from proofs.trusted.certificate import SCHEMA, Malformed, parameters_to_json, render
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.stable import StableCycle
 from proofs.trusted.numbers import Phase
 from proofs.trusted.paper import find
-from proofs.trusted.paper.s33_restitution.cycles import StableCycle, stable_cycle
-from proofs.trusted.paper.s33_restitution.rebounds import Rebound
 from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
 from proofs.trusted.parameters import PAPER, Place
@@ -56,93 +55,6 @@ def test_the_oracles_see_what_is_concluded():
 
 
 # -- the other orbit -------------------------------------------------------------------------------
-
-
-def exact_number(value):
-    return mpf(value.numerator) / value.denominator
-
-
-@cache
-def rebounds():
-    """The four steps that the pair rests on, in the order of the theorem."""
-    known = derive({k: v for k, v in evidence().steps.items() if v["rule"] == "rebound"})
-    witness = evidence().steps[PAIR]["witness"]
-    return [known[witness[kind][k]] for k in (0, 1) for kind in ("boxes", "centres")]
-
-
-def cycle(steps):
-    """The theorem about boxes and centres in turn."""
-    return stable_cycle(steps[::2], steps[1::2])
-
-
-def no_pair(steps):
-    with pytest.raises(Unproved):
-        cycle(steps)
-    return True
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("order", [(0, 1, 2, 2), (1, 0, 3, 2), (0, 1, 3, 2), (0, 3, 2, 1)])
-def test_other_orders_of_its_steps_prove_no_pair(order):
-    assert no_pair([rebounds()[k] for k in order])
-
-
-def widened(step, factor):
-    (a, b), (c, d) = (
-        [tuple(factor * x for x in entry) for entry in row] for row in step.derivative
-    )
-    return replace(step, derivative=((a, b), (c, d)))
-
-
-def box_of(phases, slope, image):
-    """An invented conclusion: F on phases x [-1, 0], linear, from its centre to the image."""
-    point, zero = ((image, image), (Fraction(-1, 2),) * 2), (Fraction(0), Fraction(0))
-    slopes = (((slope, slope), zero), (zero, (slope, slope)))
-    tenth = (Fraction("0.1"),) * 2
-    box = Place((PAPER.eta,) * 2, (PAPER.nu,) * 2, tenth)
-    centre = (sum(phases) / 2,) * 2
-    return (
-        Rebound(box, phases, (Fraction(-1), Fraction(0)), 1, *point, slopes),
-        Rebound(box, centre, point[1], 1, *point, slopes),
-    )
-
-
-def test_a_pair_of_invented_boxes():
-    low, high = (Fraction(1), Fraction(2)), (Fraction(3), Fraction(4))
-    half, one = Fraction(1, 2), Fraction(1)
-
-    def steps(slope, second=high):
-        to, back = sum(second) / 2, sum(low) / 2
-        return [*box_of(low, slope, to), *box_of(second, slope, back)]
-
-    assert cycle(steps(half)).boxes[1] == (high, (-1, 0))
-    assert cycle(box_of(low, half, Fraction(3, 2))).boxes == ((low, (-1, 0)),)
-    assert no_pair(box_of(low, half, Fraction(5, 2))), "it leads elsewhere"
-    assert no_pair([]), "no orbit"
-    assert no_pair(steps(one)), "an isometry contracts nothing"
-    once = cycle(steps(half, low))
-    assert (len(once.boxes), once.rounds) == (1, 2), "a fixed point is no 2-periodic orbit"
-    wide = replace(steps(half)[0].at, epsilon=(Fraction("0.1"), Fraction("0.2")))
-    all_of_them = [replace(x, at=wide) for x in steps(half)]
-    assert cycle(all_of_them).at == wide
-    assert no_pair([*all_of_them[:3], steps(half)[3]]), "not the same oscillators"
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    "change",
-    [
-        lambda step: widened(step, 2),
-        lambda step: replace(step, turns=step.turns + 1),
-        lambda step: replace(step, phases=(step.phases[1], step.phases[1] + Fraction(1, 10**9))),
-        lambda step: replace(step, at=replace(step.at, epsilon=(Fraction("0.28"),) * 2)),
-    ],
-)
-@pytest.mark.parametrize("index", [0, 2])
-def test_conclusions_that_do_not_contract_prove_no_pair(change, index):
-    steps = list(rebounds())
-    steps[index] = change(steps[index])
-    assert no_pair(steps)
 
 
 def test_the_pair_alone_decides_nothing():

@@ -1,32 +1,32 @@
-"""Section 3.3: cones of vectors that DF expands, and how fast it expands and contracts."""
+"""Cones of vectors that a derivative in the plane expands, and how fast it does and contracts."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import NamedTuple
 
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.differential import Differential
+from proofs.trusted.kernel.enclose import Box
 from proofs.trusted.numbers import Range, ceil_text, floor_text, show
-from proofs.trusted.paper.s33_restitution.rebounds import Entries, Rebound, size
 
 
 class Cone(NamedTuple):
-    """The unstable vectors: |dgamma - slope dphi| <= width |dphi|; the others are stable."""
+    """The unstable vectors of a plane: |dy - slope dx| <= width |dx|; the others are stable."""
 
     slope: Fraction
     width: Fraction
 
-    @property
-    def offset(self) -> str:
-        """|dgamma - slope dphi|, written."""
+    def offset(self, x: str, y: str) -> str:
+        """|dy - slope dx|, written."""
         if self.slope == 0:
-            return "|dgamma|"
+            return f"|d{y}|"
         sign = "-" if self.slope > 0 else "+"
-        return f"|dgamma {sign} {show(abs(self.slope))} dphi|"
+        return f"|d{y} {sign} {show(abs(self.slope))} d{x}|"
 
-    def turned(self, derivative: Entries) -> tuple[Range, Range, Range, Range]:
-        """Enclose the entries P, Q, R, S of DF for x = dphi, y = (dgamma - slope dphi) / width."""
+    def turned(self, derivative: Sequence[Box]) -> tuple[Range, Range, Range, Range]:
+        """Enclose the entries P, Q, R, S for the coordinates dx, (dy - slope dx) / width."""
         e, c = self
         (p, q), (r, s) = derivative
         by_x = r, _times(s, e), _times(p, -e), _times(q, -e * e)
@@ -52,29 +52,25 @@ def _sum(*ranges: Range) -> Range:
 
 
 class Rates(NamedTuple):
-    """How vectors (x, y) = (dphi, (dgamma - slope dphi) / width) grow and shrink under DF.
+    """How vectors (u, v) = (dx, (dy - slope dx) / width) grow and shrink under a derivative.
 
-    expansion: a lower bound > 1 on |x'| / |x| where |y| <= |x|; contraction: an upper bound < 1
-    on |y'| / |y| where |x'| <= |y'|.
+    expansion: a lower bound > 1 on |u'| / |u| where |v| <= |u|; contraction: an upper bound < 1
+    on |v'| / |v| where |u'| <= |v'|.
     """
 
     expansion: Fraction
     contraction: Fraction
     cone: Cone = PLAIN
 
-    def __str__(self) -> str:
-        offset, width = self.cone.offset, self.cone.width
+    def said(self, x: str, y: str) -> str:
+        """Write it; x, y: the names of the variables."""
+        offset, width = self.cone.offset(x, y), self.cone.width
         return (
-            f"uniformly hyperbolic: unstable directions have {offset} <= {show(width)} |dphi| and "
-            f"are stretched at least {floor_text(self.expansion, 2)} times in phase by each step, "
-            f"stable ones have {show(width)} |dphi| <= {offset} and shrink to at most "
-            f"{ceil_text(self.contraction, 3)} times in {self.shrinking}"
+            f"uniformly hyperbolic: unstable directions have {offset} <= {show(width)} |d{x}| and "
+            f"are stretched at least {floor_text(self.expansion, 2)} times in {x} by each step, "
+            f"stable ones have {show(width)} |d{x}| <= {offset} and shrink to at most "
+            f"{ceil_text(self.contraction, 3)} times in {offset}"
         )
-
-    @property
-    def shrinking(self) -> str:
-        """What shrinks of stable vectors."""
-        return "velocity" if self.cone.slope == 0 else self.cone.offset
 
     @staticmethod
     def worst(each: Sequence[Rates]) -> Rates:
@@ -84,22 +80,22 @@ class Rates(NamedTuple):
         return Rates(min(x.expansion for x in each), max(x.contraction for x in each), each[0].cone)
 
 
-def rates(parts: Sequence[Rebound], cone: Cone = PLAIN) -> Rates:
-    """Return the rates of hypothesis 3 of the rule `rectangle-horseshoe`, or Unproved.
+def rates(parts: Iterable[Differential], cone: Cone = PLAIN) -> Rates:
+    """Return the rates of hypothesis 3 of the rule `horseshoe`, or Unproved.
 
-    Theorem. In the coordinates of `Rates` let all DF on each of these boxes of states have entries
+    Theorem. In the coordinates of `Rates` let all derivatives on each of these boxes have entries
     with |R| + |S| < |P| - |Q|, |P| - |Q| >= expansion > 1, |Q| + |S| <= steepest (|P| - |R|), and
-    steepest |R| + |S| <= contraction < 1. Then so has each mean D of DF over a connected union of
-    such boxes: (1) if |y| <= |x|, then |y'| < |x'| and |x'| >= expansion |x|; (2) if |x'| <= |y'|,
-    then |y'| <= contraction |y|.
+    steepest |R| + |S| <= contraction < 1. Then so has each mean D of them over a connected union of
+    such boxes: (1) if |v| <= |u|, then |v'| < |u'| and |u'| >= expansion |u|; (2) if |u'| <= |v'|,
+    then |v'| <= contraction |v|.
     Proof. P, continuous and not 0, has one sign there; so the inequalities say that convex
     functions of the entries are at most 0, and means obey them.
-    (1) |x'| >= (|P| - |Q|) |x| > (|R| + |S|) |x| >= |y'|. (2) |P x| <= |x'| + |Q y| <= |R x| +
-    (|S| + |Q|) |y|, so |x| <= steepest |y|, as |P| - |R| > 0, and |y'| <= |R x| + |S y|.
+    (1) |u'| >= (|P| - |Q|) |u| > (|R| + |S|) |u| >= |v'|. (2) |P u| <= |u'| + |Q v| <= |R u| +
+    (|S| + |Q|) |v|, so |u| <= steepest |v|, as |P| - |R| > 0, and |v'| <= |R u| + |S v|.
     """
     if cone.width <= 0:
         raise Unproved("a cone has a width > 0")
-    found = [cone.turned(part.derivative) for part in parts]
+    found = [cone.turned(part.matrix) for part in parts]
     bounds = [(max(p[0], -p[1]), size(q), size(r), size(s)) for p, q, r, s in found]
     if any(p - q <= r + s for p, q, r, s in bounds):
         raise Unproved("the cone condition is not proved")
@@ -109,3 +105,8 @@ def rates(parts: Sequence[Rebound], cone: Cone = PLAIN) -> Rates:
     if expansion <= 1 or contraction >= 1:
         raise Unproved("the rates are not proved hyperbolic")
     return Rates(expansion, contraction, cone)
+
+
+def size(values: Range) -> Fraction:
+    """Return the largest absolute value in a range."""
+    return max(abs(values[0]), abs(values[1]))
