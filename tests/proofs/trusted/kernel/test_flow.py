@@ -235,19 +235,20 @@ def test_coefficients_contain_the_exact_ones(rate):
     def product(a, b):
         return [sum(a[i] * b[k - i] for i in range(k + 1)) for k in range(len(a))]
 
-    for _ in range(20):
+    for width in [0] * 10 + [2**50, 2**58] * 5:
         m = rng.randrange(2**63, 2**64) | 1
-        x, one = Enclosure(m, m, 64), Enclosure(0, 0, 64)
-        exact = [Fraction(m, 2**64)]
-        series = Series(program, [one, x, one], Fraction(1, 4))
-        for k in range(orders):
-            square = product(exact, exact)
-            cube = product(square, exact)
-            value = square[k] if rate == "x**2" else cube[k] / 3 - exact[k]
-            exact.append(value / 4 / (k + 1))
-            low, high = series.coefficients(k + 1)[0].range
-            assert low <= exact[-1] <= high
-            assert high - low < Fraction(1, 2**56)
+        x, nothing = Enclosure(m - width, m + width, 64), Enclosure(0, 0, 64)
+        series = Series(program, [nothing, x, nothing], Fraction(1, 4))
+        for point in (m - width, m, m + width):
+            exact = [Fraction(point, 2**64)]
+            for k in range(orders):
+                square = product(exact, exact)
+                cube = product(square, exact)
+                value = square[k] if rate == "x**2" else cube[k] / 3 - exact[k]
+                exact.append(value / 4 / (k + 1))
+                low, high = series.coefficients(k + 1)[0].range
+                assert low <= exact[-1] <= high
+                assert width or high - low < Fraction(1, 2**56)
 
 
 CURVES = {  # solutions from x = 1 in closed form, and x' = f
