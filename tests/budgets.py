@@ -19,18 +19,18 @@ from proofs.trusted.rules import RULES
 ROOT = Path(__file__).parents[1]
 GENERATED = ["docs/api.md", "docs/systems.md"]
 BUDGETS = {
-    "proofs": 54_950,
-    "proofs/trusted": 21_250,
+    "proofs": 55_450,
+    "proofs/trusted": 21_800,
     "proofs/search, proofs/motion": 9_500,
     "proofs/shell": 1_760,
     "proofs/benchmark": 1_880,
     "proofs/stress": 1_350,
     "tests": 50_900,
-    "words of the docs": 12_100,  # of those that are written by hand, the README with them
+    "words of the docs": 12_300,  # of those that are written by hand, the README with them
     "rules outside the kernel": 33,
     "loose modules": 9,  # of the package proofs
-    "tracked files": 1_045,
-    "headline": 8_750,  # lines of the files that run to check reports/horseshoe.json
+    "tracked files": 1_065,
+    "headline": 8_800,  # lines of the files that run to check reports/horseshoe.json
     "way of H2": 7_450,  # lines of the files that run to prove H2 and to check it
     "way of H2, files": 50,
 }
