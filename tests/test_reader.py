@@ -72,7 +72,7 @@ A graph of intervals | G9 G17
 - **Most phases | -
 Following intervals | G13
 A state has | -
-The same steps | rule:rectangle rule:rectangle-horseshoe
+The same steps | rule:rectangle rule:horseshoe
 For the printed | N1 N2 N3 N5
 The motion that sticks | G7
 The program that | -

@@ -20,6 +20,7 @@ from intervals.search import range_of, sign_of
 from intervals.taylor import taylor
 from intervals.zero_finder import zeros
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
+from proofs.trusted.kernel.expression import FUNCTIONS
 from tests.intervals.boxes import for_all
 from tests.proofs.trusted.kernel.test_formulas import expressions, formula, points
 
@@ -222,7 +223,7 @@ def test_every_number_type_encloses_the_same(tree, a, b):
 @for_all(expressions, points, points, st.sampled_from([0, Fraction(1, 9)]), tries=200)
 def test_the_checker_reads_the_same_formula(text, a, b, width):
     """Its reader, tape and arithmetic share nothing with a recording of what Python reads."""
-    names = {name: getattr(intervals, name) for name in ("sqrt", "exp", "log", "sin", "cos")}
+    names = {name: getattr(intervals, name) for name in FUNCTIONS}
     names |= {"pi": Interval.pi(precision=200)}
     names["number"] = lambda p, q: Interval(Fraction(p, q), precision=200)
     exact = re.sub(r"\((-?[0-9]+)/([0-9]+)\)", r"number(\1, \2)", text)

@@ -4,6 +4,7 @@ import os
 import signal
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
 from time import monotonic, sleep
 
@@ -32,7 +33,8 @@ def stopped(name, folder, number, after, everyone=True):
         wait_until_it_listens(process)
         sleep(after)
         began = monotonic()
-        (os.killpg if everyone else os.kill)(process.pid, number)
+        with suppress(ProcessLookupError):  # it was done before
+            (os.killpg if everyone else os.kill)(process.pid, number)
         try:
             _, err = process.communicate(timeout=20)
             took = monotonic() - began
