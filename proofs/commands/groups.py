@@ -59,6 +59,7 @@ Section 2 and the appendix: the model's equations derived, sticking, marching, a
 Claims M1 to M5, M7 to M9, A1 and A2. They are about all values of the parameters, or about exact
 witnesses; A1 also names phases of the parameters given that never impact again.""",
         _OSCILLATOR,
+        fixed=("M1", "M2", "M3", "M4", "M5", "M7", "M8", "M9", "A2"),
     ),
     Group(
         "sets",
@@ -131,6 +132,7 @@ Section 4: single-impact orbits. (16)-(18) derived; which solutions are orbits, 
 Identities are found with sympy; solutions, first impacts and the ends of the windows of stable
 orbits in figures 7a and 7b are enclosed with the package `intervals`.""",
         _OSCILLATOR,
+        fixed=("P1", "P2", "P3", "P5", "P6"),
     ),
     Group(
         "soft",

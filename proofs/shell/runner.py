@@ -59,8 +59,9 @@ examples:
 class Group(NamedTuple):
     """The command of a group of claims: its name, which is its certificate's, and its help.
 
-    heeded: the numbers that what is proved depends on. options: for the prover, with what argparse
-    is told of each. seen: returns what floating point sees, in Markdown, shown beside the verdicts.
+    heeded: the numbers that what is proved depends on; fixed: claims that none of them changes.
+    options: for the prover, with what argparse is told of each. seen: returns what floating point
+    sees, in Markdown, shown beside the verdicts.
     """
 
     name: str
@@ -69,6 +70,7 @@ class Group(NamedTuple):
     examples: str = ""
     options: Mapping[str, Mapping[str, Any]] = MappingProxyType({})
     seen: Callable[[Parameters, Namespace], str] | None = None
+    fixed: Sequence[str] = ()
 
     def chosen(self, options: Namespace) -> dict[str, Any]:
         """Return the options that are given."""
@@ -84,6 +86,9 @@ def run(group: Group, arguments: list[str] | None = None) -> int:
     options, unknown = parser.parse_known_args(arguments)
     if unknown:
         parser.error(refusal(unknown, group.heeded))
+    given = [name for name in group.heeded if getattr(options, name) is not None]
+    if given and options.only and {*options.only} <= {*group.fixed}:
+        parser.error(f"--{given[0]} would change nothing in {' '.join(options.only)}")
     if options.figure and find_spec("matplotlib") is None:
         parser.error("--figure needs matplotlib: pip install 'impact-proofs[report]'")
     try:

@@ -122,6 +122,15 @@ def test_what_a_command_takes_is_what_it_heeds(name):
         made = produce(wanted(name, of) or wanted(name, of, FILES[name][name]), of, digits=12)
         decided[option] = json.loads(made.certificate)["claims"]
     assert {x for x in CHANGES if decided[x] != decided[""]} == set(GROUPS[name].heeded)
+    same = {x["id"] for x in decided[""] if all(x in claims for claims in decided.values())}
+    assert same >= {*GROUPS[name].fixed}
+
+
+def test_a_number_that_changes_nothing_in_what_is_asked_is_refused(capsys):
+    with pytest.raises(SystemExit) as leave:
+        main_of("single")(["--only", "P5", "P1", "--eta", "0.5"])
+    assert leave.value.code == 2
+    assert "--eta would change nothing in P5 P1\n" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("name", FILES)
