@@ -48,7 +48,7 @@ HEAD = """\
    Not trusted: Coq computes and proves. To be read: Graph.v, and the map, the intervals, the arrows
    and the theorems stated here. *)
 From Coq Require Import Reals ZArith List.
-From Oscillator Require Import Graph Formula Checker.
+From Oscillator Require Import Graph Formula Cells Checker.
 Import ListNotations.
 Open Scope R_scope.
 """
