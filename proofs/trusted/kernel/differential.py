@@ -43,13 +43,17 @@ class Differential(Conclusion):
         map_, name = self.function, self.function.name
         place = box_text(self.box, map_.variables)
         rows = ", ".join(f"({', '.join(map(between, row))})" for row in self.matrix)
-        pairs = zip(angles(map_), self.turns, strict=True)
-        lifts = [f"{counted(turns)} of `{v}`" for v, turns in pairs]
-        less = f" (less {', '.join(lifts)})" if lifts else ""
         return (
             f"{given(map_)}`{name}` is continuously differentiable for {place}, with values in "
-            f"{' x '.join(map(between, self.values))}{less}, and a derivative with rows in {rows}."
+            f"{' x '.join(map(between, self.values))}{less(map_, self.turns)}, and a derivative "
+            f"with rows in {rows}."
         )
+
+
+def less(map_: Map, turns: Sequence[int]) -> str:
+    """Say how many periods of its angles images are less, if it has any."""
+    lifts = [f"{counted(n)} of `{v}`" for v, n in zip(angles(map_), turns, strict=True)]
+    return f" (less {', '.join(lifts)})" if lifts else ""
 
 
 def angles(map_: Map) -> list[str]:

@@ -12,7 +12,14 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.covers import read_turns
-from proofs.trusted.kernel.differential import BITS, Differential, differential_on, given, image_of
+from proofs.trusted.kernel.differential import (
+    BITS,
+    Differential,
+    differential_on,
+    given,
+    image_of,
+    less,
+)
 from proofs.trusted.kernel.enclose import Box, box_text, read_box
 from proofs.trusted.kernel.maps import Map
 from proofs.trusted.numbers import Range, between, ceil_text, hull, increasing
@@ -65,8 +72,8 @@ class Rectangle(Conclusion):
         return (
             f"{given(map_)}`{map_.name}` is continuously differentiable for "
             f"{box_text(self.box, map_.variables)}, and takes it into "
-            f"{' x '.join(map(between, self.image))} (less {sum(self.turns)} periods), its left "
-            f"edge to {left}, its right edge to {right}, in `{map_.variables[0]}`."
+            f"{' x '.join(map(between, self.image))}{less(map_, self.turns)}, its left edge to "
+            f"{left}, its right edge to {right}, in `{map_.variables[0]}`."
         )
 
 
