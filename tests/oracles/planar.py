@@ -18,7 +18,7 @@ CLOSE = 1e-9
 
 def is_of_a_file(view):
     """Whether a conclusion is about a function of its file, not about the oscillator."""
-    return hasattr(view, "function") and view.numbers is None
+    return hasattr(view, "function") and not hasattr(view, "nu")
 
 
 def inside(point, box, room=CLOSE):

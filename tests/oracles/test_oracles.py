@@ -366,7 +366,12 @@ FALSE = {
         put("late", lambda old: (off(old[0]), off(old[1]))),
     ],
     "NuWindows": [_window, put("below", ())],
-    "Differential": [_image, _speed, _derivative, put("turns", lambda old: (old[0] + 1,))],
+    "Differential": [
+        _image,
+        _speed,
+        _derivative,
+        put("turns", lambda old: tuple(count + 1 for count in old)),
+    ],
     "Rectangle": [
         _edge,
         put("parts", lambda old: old[1:]),

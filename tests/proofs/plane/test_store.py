@@ -13,6 +13,7 @@ import tracemalloc
 from concurrent.futures import Future
 from contextlib import closing
 from fractions import Fraction
+from functools import partial
 from hashlib import sha256
 
 import pytest
@@ -52,7 +53,8 @@ def proved(folder):
 def start(folder, depth=3, **streams):
     command = [sys.executable, "-m", "proofs.commands.atlas", *LARGE, "--depth", str(depth)]
     command += ["--chunk", "3", "--out", str(folder), "--quiet"]
-    return subprocess.Popen(command, **streams)
+    listen = partial(signal.signal, signal.SIGINT, signal.default_int_handler)
+    return subprocess.Popen(command, preexec_fn=listen, **streams)  # a background job ignores it
 
 
 @pytest.mark.slow

@@ -186,9 +186,9 @@ def up(bounds):
 
 
 def moved_entry(found, k):
-    flat = [*sum(found.jacobian, ())]
-    flat[k] = up(flat[k])
-    return replace(found, jacobian=(tuple(flat[:2]), tuple(flat[2:])))
+    entries = [*found.jacobian]
+    entries[k] = up(entries[k])
+    return replace(found, jacobian=tuple(entries))
 
 
 DEFECTS = [  # what is broken, how, and a case on which it shows
