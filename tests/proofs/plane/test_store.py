@@ -53,8 +53,8 @@ def proved(folder):
 def start(folder, depth=3, **streams):
     command = [sys.executable, "-m", "proofs.commands.atlas", *LARGE, "--depth", str(depth)]
     command += ["--chunk", "3", "--out", str(folder), "--quiet"]
-    listen = partial(signal.signal, signal.SIGINT, signal.default_int_handler)
-    return subprocess.Popen(command, preexec_fn=listen, **streams)  # a background job ignores it
+    listen = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)  # a background job ignores it
+    return subprocess.Popen(command, preexec_fn=listen, **streams)  # noqa: PLW1509
 
 
 @pytest.mark.slow
