@@ -13,6 +13,7 @@ from functools import partial
 from typing import Any
 
 from proofs.trusted.certificate import SCHEMA, Malformed, render
+from proofs.trusted.kernel.meter import Exhausted
 from proofs.trusted.rules import RULES
 from proofs.trusted.verify import Rejected, Report, check
 from tests.proofs.trusted.edits import Document, Edit, Mutation, drop, edited, put, swap, walk
@@ -293,6 +294,6 @@ def outcome(text: str) -> tuple[str, str, Report | None]:
         report = check(text)
     except Malformed as error:
         return "malformed", str(error), None
-    except Rejected as error:
+    except (Rejected, Exhausted) as error:
         return "rejected", str(error), None
     return "accepted", "", report

@@ -95,16 +95,19 @@ def test_conclusions_carry_no_other_texts():
     assert found == WORDS.keys() and count > 90
 
 
-def words(value, where=""):
-    """The texts inside of a conclusion, by field."""
+def words(value, where="", outer=()):
+    """The texts inside of a conclusion, by field; what a map remembers may lead back to it."""
+    if id(value) in outer:
+        return
+    outer = (*outer, id(value))
     if isinstance(value, str):
         yield where, value
     elif isinstance(value, list | tuple | frozenset | dict) and not hasattr(value, "_fields"):
         for each in value.items() if isinstance(value, dict) else value:
-            yield from words(each, where)
+            yield from words(each, where, outer)
     elif dataclasses.is_dataclass(value) or hasattr(value, "_fields"):
         for name in getattr(value, "_fields", None) or [x.name for x in dataclasses.fields(value)]:
-            yield from words(getattr(value, name), f"{type(value).__name__}.{name}")
+            yield from words(getattr(value, name), f"{type(value).__name__}.{name}", outer)
 
 
 # -- phrases in files ------------------------------------------------------------------------------
