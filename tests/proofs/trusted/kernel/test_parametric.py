@@ -40,7 +40,9 @@ def subject(made, power):
     return Closing(map_, power, (0,) * len(map_.circles)) if power else map_
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(x, marks=[pytest.mark.long] * (x == "orbit of walls")) for x in CASES]
+)
 def test_values_at_each_parameter_are_inside(name):
     made, ranges, state, power = CASES[name]
     rng = Random(name)

@@ -219,9 +219,12 @@ def test_work_on_nested_bindings_is_bounded():
 
 def formulas_in(value):
     """All formulas inside of a conclusion's fields, and of the conclusions inside."""
-    waiting = [value]
+    waiting, seen = [value], {}
     while waiting:
         each = waiting.pop()
+        if id(each) in seen:  # what a map remembers may lead back to it
+            continue
+        seen[id(each)] = each
         if hasattr(each, "bound"):
             yield each
         elif isinstance(each, list | tuple):
