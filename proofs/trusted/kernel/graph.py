@@ -98,7 +98,7 @@ def graph(context: Context, reader: Reader) -> Graph:
     """
     (names,) = reader.fields("covers")
     steps = tuple(context.step(name, Covers) for name in names.items(least=1))
-    first, of_source = steps[0].local, dict[int, Map]()
+    first, of_source, named = steps[0].local, dict[int, Map](), dict[str, Map]()
     places: dict[int, int] = {}
     nodes: list[HSet] = []
     edges: dict[tuple[int, int], Covers] = {}
@@ -107,6 +107,8 @@ def graph(context: Context, reader: Reader) -> Graph:
         ends = (local.source, local.target)
         if of_source.setdefault(id(ends[0]), local.map) != local.map:
             raise name.fail("a relation of another map from the same set")
+        if named.setdefault(local.map.name, local.map) != local.map:
+            raise name.fail("two maps of one name")
         if local.power != first.power or (local.map != first.map and local.power > 1):
             raise name.fail("a relation of another map or iterate")
         if not same_state(local.map, first.map):

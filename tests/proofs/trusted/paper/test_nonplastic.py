@@ -258,6 +258,7 @@ def without(index):
     [
         *(("golden-mean", "words", without(index)) for index in range(4)),
         ("golden-mean", "part", lambda x: "rectangle-1"),
+        ("golden-mean", "rectangles", lambda x: x[:1]),
         ("horseshoe", "rectangles", lambda x: ["rectangle-1", "rectangle-2"]),
         ("horseshoe", "rectangles", lambda x: x[::-1]),
         ("horseshoe", "arrows", lambda x: [["1"], ["1", "2"]]),
