@@ -468,31 +468,6 @@ def test_entropy_counts_the_power():
 # -- cones -----------------------------------------------------------------------------------------
 
 
-@pytest.mark.slow
-def test_periodic_points_of_the_horseshoes_are_unique():
-    """Every closed path of length <= 6 is followed once: Newton's method from many starts."""
-    import mpmath as mp
-
-    sides = {0: (-0.62, -0.15), 1: (0.15, 0.62)}
-    for length in (1, 2, 3, 4):
-        for path in product((0, 1), repeat=length):
-            found = set()
-            for start in (0.2, 0.5):
-                guess = [sides[s][0] + start * (sides[s][1] - sides[s][0]) for s in path]
-
-                def orbit(*x, path=path, length=length):
-                    return [
-                        1 - 5 * x[i] ** 2 + mp.mpf(3) / 10 * x[i - 1] - x[(i + 1) % length]
-                        for i in range(length)
-                    ]
-
-                root = mp.findroot(orbit if length > 1 else lambda x: orbit(x)[0], guess)
-                values = list(root) if length > 1 else [root]
-                if all(sides[s][0] < v < sides[s][1] for s, v in zip(path, values, strict=True)):
-                    found.add(tuple(mp.nstr(v, 10) for v in values))
-            assert len(found) == 1
-
-
 @pytest.mark.every
 @pytest.mark.parametrize(
     "forms",

@@ -6,7 +6,6 @@ from fractions import Fraction
 from functools import cache
 
 import pytest
-from mpmath import mpf
 
 from proofs.search.s34_persistence import prove
 from proofs.trusted.certificate import Malformed
@@ -19,7 +18,6 @@ from tests.oracles.judge import oracle
 from tests.proofs.trusted.paper.steps import add, apply, derive, edited
 
 pytestmark = pytest.mark.slow
-ETA, NU = mpf("0.2121"), mpf("-0.2")
 RESTS, PASSES = "superstable-motion-2", "passes-separation-1"
 
 
@@ -47,18 +45,6 @@ def test_what_is_said():
     assert "before the first phi_s after it lands" in decision.theorem
     for found in (known()[RESTS], known()[PASSES]):
         assert oracle(found, random.Random(1)) == []
-
-
-@pytest.mark.parametrize(
-    "left_out", [(RESTS,), (PASSES,), ("superstable-motion-1",), (RESTS, PASSES)]
-)
-def test_nothing_is_decided_without_any_of_them(left_out):
-    assert find("G15").decide(PAPER, kinds(*left_out)).verdict.value == "UNDECIDED"
-
-
-def test_elsewhere_nothing_is_decided():
-    of = replace(PAPER, eta=Fraction("0.2122"))
-    assert find("G15").decide(of, kinds()).verdict.value == "UNDECIDED"
 
 
 FLIES, CELL = (PASSES, "witness"), (RESTS, "witness", "cells", 0)

@@ -19,7 +19,7 @@ from proofs.motion.witness import HORIZON
 from proofs.search.evidence import Evidence
 from proofs.search.s34_chaos import prove, prove_entropy
 from proofs.search.steps import Prover
-from proofs.shell.groups import certificate, decide, produce
+from proofs.shell.groups import certificate, decide
 from proofs.trusted.certificate import Malformed, render
 from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -598,14 +598,3 @@ def test_symbols_are_numbered_in_order_of_phases_whatever_the_order_of_the_file(
     forged["claims"][0]["corrected"] = false
     with pytest.raises(Rejected):
         check(render(forged))
-
-
-@pytest.mark.slow
-def test_the_whole_run():
-    made_of = produce({"chaos": ["G9"]}, PAPER, digits=30)
-    (row,) = made_of.lines
-    assert row.verdict is Verdict.VERIFIED
-    assert row.quantities["entropy_lower_bound"][0] > F("1.757")
-    assert len(made_of.certificate) < 300_000
-    (claim,) = check(made_of.certificate).claims
-    assert claim.verdict is Verdict.VERIFIED

@@ -286,11 +286,6 @@ def test_phases_that_never_impact_are_all_of_an_interval(never):
         assert isinstance(flight(PAPER.eta, PAPER.nu, phase, latest=70_000.0), Impact)
 
 
-def test_the_motion_repeats_after_twenty_thousand_pi():
-    eta, phase = mpf("0.2121"), mpf("1.5709")
-    assert abs(reference.left_side_10(eta, NU, phase, 20000 * mp.pi)) < mpf(10) ** -40
-
-
 def test_the_longest_interval_is_accepted(never):
     assert (
         apply("never-impacts", never[0]) == never[1] == NeverImpacts(PAPER.place, never[1].phases)
@@ -631,14 +626,6 @@ def test_stability_needs_an_impact_inside_the_arc_and_at_the_printed_phase(arc, 
     assert find("G3").decide(PAPER, [found]).verdict is verdict
 
 
-def test_flights_from_beside_the_separation_phase_land_where_the_mass_sticks():
-    """By the oracle: phases from phi_s on to 2 pi + 0.65 stick next; so G3 by brute force."""
-    leave = float(reference.separation_phase(ETA, NU))
-    for beside in (1e-9, 1e-5, 0.01, 0.2, 0.89):
-        assert impacts_before_rest(PAPER.eta, PAPER.nu, (leave + beside) % TURN, 3) == 1
-    assert impacts_before_rest(PAPER.eta, PAPER.nu, (leave + 0.9) % TURN, 3) == 2
-
-
 def shift(low="1.1", high="1.49"):
     """An invented full shift on three thirds of an interval."""
     low, high = Fraction(low), Fraction(high)
@@ -678,25 +665,6 @@ def test_a_shift_where_the_mass_sticks_says_nothing(arc):
 
 
 @pytest.mark.slow
-def test_transients_beside_a_periodic_orbit_are_as_long_as_is_said():
-    """Near the points of the orbit of period 2 of G5: more than n impacts, at most n + 3.
-
-    Phases with flights over hundreds of turns are left out.
-    """
-    leave = float(reference.separation_phase(ETA, NU))
-    for point in (1.337513652135266, 1.457399102205529):
-        for n in range(1, 7):
-            reach = 0.39 / 2.78 ** (n - 1)
-            x, counts = point + np.linspace(-reach, reach, 100), []
-            x = x[(x > 1.1) & (x < 1.49)]
-            for _ in range(n + 4):
-                counts.append(np.sum((3 * np.pi - leave < x) & (x < leave)))
-                x = x[((x < 3 * np.pi - leave) | (x > leave)) & (abs(x - 1.59) > 0.04)]
-                x = np.mod(x + _flight_times(x), 2 * np.pi)
-            assert sum(counts[n + 1 :]) > 0
-
-
-@pytest.mark.slow
 def test_rows_about_printed_phases_are_not_asked_elsewhere():
     """At (1/6, -0.45) a motion sticks too, at (5.17, 6.22): not at the phases printed."""
     of = replace(PAPER, eta=Fraction(1, 6), nu=Fraction("-0.45"))
@@ -715,92 +683,7 @@ def test_rows_about_printed_phases_are_not_asked_elsewhere():
     assert wanted("circle", PAPER)["circle"] == (*CLAIMS, "G14")
 
 
-# -- the command's own numbers -------------------------------------------------------------------
-
-
-@pytest.mark.slow
-def test_all_claims_at_the_papers_numbers():
-    evidence = circle.prove(PAPER, CLAIMS)
-    lines = {claim: decide(claim, PAPER, evidence, 30)[0] for claim in CLAIMS}
-    assert {claim: line.verdict.value for claim, line in lines.items()} == {
-        "M6": "CONDITIONAL",
-        "G1": "VERIFIED",
-        "G2": "CONDITIONAL",
-        "G3": "VERIFIED",
-        "G4": "VERIFIED",
-        "G6": "VERIFIED",
-        "G10": "REFUTED",
-        "G13": "VERIFIED",
-    }
-    low, high = lines["G4"].quantities["basin_fraction"]
-    assert Fraction("0.99963") < low < Fraction("0.999635") < high < Fraction("0.99964")
-    (known,) = (x for _, x in evidence.proofs["G13"] if isinstance(x, Absorption))
-    assert known.open_share < Fraction("2e-7")
-    assert "[1.1, 1.49]" in lines["G6"].why
-
-
-@pytest.mark.long
-def test_both_basins_by_simulation():
-    """30000 random phases, all flights at once, by steps that cannot pass a zero of (10)."""
-    count, leave = 30_000, float(reference.separation_phase(ETA, NU))
-    x = np.random.default_rng(5).uniform(0, 2 * np.pi, count)
-    stuck = touching = 0
-    for _ in range(100):
-        free = (x > 1.570570442) & (x < 1.571022212)
-        rests = (3 * np.pi - leave < x) & (x < leave)
-        stuck, touching = stuck + rests.sum(), touching + free.sum()
-        x = x[~free & ~rests]
-        if not len(x):
-            break
-        x = np.mod(x + _flight_times(x), 2 * np.pi)
-    assert len(x) == 0
-    assert stuck + touching == count
-    assert abs(touching - count * 0.0003647) < 5 * np.sqrt(count * 0.0003647)
-
-
-def _flight_times(phases):
-    """Times of first impacts, in floating point: |gap''| is at most 0.31."""
-    eta, nu, most = 0.2121, -0.2, 0.31
-    push = -(nu * (1 - eta**2) * np.sin(phases) - eta**2)
-    times, active = push / (2 * most), np.arange(len(phases))
-    while len(active):
-        x, t = phases[active], times[active]
-        along, across = 1 + nu * np.sin(x), nu / eta * np.cos(x)
-        height = 1 + nu * np.sin(x + t) - along * np.cos(eta * t) - across * np.sin(eta * t)
-        speed = nu * np.cos(x + t) + eta * (along * np.sin(eta * t) - across * np.cos(eta * t))
-        flying = (height > 1e-12) & (t < 7e4)
-        step = (speed + np.sqrt(np.maximum(0, speed**2 + 2 * most * height))) / most
-        times[active] += np.where(flying, step, 0)
-        active = active[flying]
-    return times
-
-
 # -- touching for ever ---------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("epsilon", ["0.01", "0.5", "0.95"])
-@pytest.mark.parametrize("phase", ["1.5706", "1.5708", "1.571"])
-def test_weak_rebounds_after_ten_thousand_turns(epsilon, phase):
-    """Impacts by (14) at 50 digits: a little before a whole period, at about the launch's speed."""
-    epsilon, x, speed = mpf(epsilon), mpf(phase), mpf("1e-7")
-    period, drift, start = 20000 * mp.pi, mpf(0), x
-    for _ in range(5):
-        gamma = (-speed - NU * mp.cos(x)) / ETA  # -gap' = -(eta gamma + nu cos(phi))
-
-        def gap(t, x=x, gamma=gamma):
-            return -reference.left_side_14(ETA, NU, epsilon, x, gamma, t)
-
-        kick = epsilon * speed
-        tau = 2 * kick / reference.launch_acceleration(ETA, NU, x)
-        assert gap(period - 2 * tau) > 0 > gap(period - tau / 2)  # and > 0 before, but for launch
-        assert all(gap(mpf(t)) > 0 for t in (tau, "0.001", "0.1", "3", "30000", "62831"))
-        time = mp.findroot(gap, (period - 2 * tau, period - tau / 2), solver="anderson", tol=1e-60)
-        assert abs(time - (period - tau)) < 1e-3 * tau
-        speed = -mp.diff(gap, time)
-        assert abs(speed / kick - 1) < 1e-5
-        x, drift = x + time - period, drift + tau
-    assert abs(start - x - drift) < 1e-3 * drift
-    assert drift < 3 * mpf("1e-7") / (1 - epsilon) / mpf("0.2")
 
 
 def test_touching_needs_an_interval_without_impacts(never):

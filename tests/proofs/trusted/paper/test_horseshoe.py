@@ -107,17 +107,6 @@ def test_the_corrected_theorem_is_about_the_nearest_printed_sets(outcome):
     assert told["H2"] == f"At {PAPER.place}: {found.sentence}"
 
 
-@pytest.mark.slow
-def test_the_corrected_sets_are_right_by_brute_force():
-    for phi, holds in (("1.1", lambda f: f < 1.1), ("1.15", lambda f: f > 1.32),
-                       ("1.27", lambda f: f < 1.1), ("1.32", lambda f: f > 1.32)):  # fmt: skip
-        assert holds(brute(phi)[0])
-    for k in range(1, 24):
-        phi = reference.mpf(1150 + 5 * k) / 1000
-        impact = reference.first_impact(ETA, NU, reference.mpf(phi))
-        assert impact is None or not 1.1 <= impact[1] <= 1.32
-
-
 def test_the_corrected_sets_verify_as_they_are(outcome):
     found = corrected(outcome.certificate)
     again = made(

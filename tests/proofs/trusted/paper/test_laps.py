@@ -63,15 +63,6 @@ def only(kind, known):
     return [x for x in known.values() if isinstance(x, kind)]
 
 
-@pytest.mark.slow
-def test_g17_and_g18_rest_on_all_of_their_conclusions(evidence, known):
-    decision = find("G17").decide(OF, [known[name] for name, _ in evidence.proofs["G17"]])
-    assert decision.verdict is Verdict.VERIFIED and decision.margin > F("0.009")
-    found = [known[name] for name, _ in evidence.proofs["G18"]]
-    for few, verdict in ((found, "VERIFIED"), *((x, "UNDECIDED") for x in (found[:1], found[1:2]))):
-        assert find("G18").decide(OF, few).verdict.value == verdict
-
-
 # -- against brute force ---------------------------------------------------------------------------
 
 

@@ -3,7 +3,6 @@
 import copy
 import json
 import math
-import random
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
@@ -83,41 +82,6 @@ def image(numbers, state, begin=0.1):
         low, high = (middle, high) if height(middle) > 0 else (low, middle)
     velocity = reference.right_side_15(*numbers, phi, gamma, low, math.sin, math.cos)
     return (phi + low) % math.tau, velocity
-
-
-def symbol(state):
-    phases = ((1.11, 1.15), (1.27, 1.32))
-    return next((i for i, (low, high) in enumerate(phases) if low <= state[0] <= high), None)
-
-
-def test_barred_words_are_not_seen_and_others_are():
-    random.seed(1)
-    seen = set()
-    for _ in range(600):
-        state = (random.choice((1.11, 1.27)) + random.uniform(0, 0.05), random.uniform(-0.45, 0))
-        word = []
-        while (now := symbol(state)) is not None and len(word) < 6:
-            word.append(now)
-            state = image((0.2121, -0.2, 0.01), state, 24.0 if state[0] < 1.2 else 56.0)
-        seen.update(tuple(word[i:j]) for i in range(len(word)) for j in range(i + 1, len(word) + 1))
-    assert {(0, 0), (0, 1), (1, 0), (1, 1)} <= seen
-    assert not seen & {(1, 1, 1, 1, 1), (0, 0, 1, 1), (1, 0, 1, 1), (0, 1, 1, 1)}
-
-
-@pytest.mark.parametrize("edge", [1.11, 1.15, 1.27, 1.32])
-def test_full_orbits_without_22_have_no_state_on_an_edge(edge):
-    """So Lambda_2 is in the open rectangles: V2 is followed by V1 there, V1 by either; velocities
-    before impacts are in (-0.45, 0).
-    """
-    for gamma in (-0.45, -0.3, -0.15, 0.0):
-        state, word = (edge, gamma), []
-        for _ in range(2):
-            state = image((0.2121, -0.2, 0.01), state, 24.0 if state[0] < 1.2 else 56.0)
-            word.append(symbol(state))
-            assert -0.45 < state[1] < 0
-            if word[-1] is None:
-                break
-        assert word[0] != 0 if edge > 1.2 else word in ([None], [1, None], [1, 1])
 
 
 def other(**change):

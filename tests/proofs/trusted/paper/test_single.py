@@ -82,15 +82,6 @@ def test_solutions_and_orbits_are_those_the_oracle_sees():
     assert min(seen.values()) > 10
 
 
-def test_an_orbit_that_sticks_need_not_solve_16():
-    """Why P1 is about masses that leave at once: (0.2121, -0.2), one impact in four periods."""
-    eta, nu = mpf("0.2121"), mpf("-0.2")
-    leave = reference.separation_phase(eta, nu)
-    time, phi = reference.first_impact(eta, nu, leave + mpf(10) ** -20)
-    assert abs((leave + time - phi) / (2 * mp.pi) - 4) < 1e-15
-    assert abs(reference.left_side_10(eta, nu, phi, 8 * mp.pi)) > 0.1
-
-
 def test_closed_forms_of_a_solution():
     """With p = nu sin(phi)/h: the gap of its flight, and nu^2 = A(p)."""
     rng = random.Random(5)
@@ -245,16 +236,6 @@ def test_earlier_impacts_of_long_flights():
 # -- a table below: lemmas 6 to 8 ------------------------------------------------------------------
 
 
-def saddle_node(n, nu, low, high):
-    """About the eta where eta |tan(pi n eta)|, which falls, is |nu|/sqrt(1 - nu^2)."""
-    depth = math.tan(math.asin(-nu))
-    for _ in range(60):
-        middle_one = (low + high) / 2
-        above = -middle_one * math.tan(math.pi * n * middle_one) > depth
-        low, high = (middle_one, high) if above else (low, middle_one)
-    return high
-
-
 def below(n, eta, nu):
     """D(t) for the solution with slope < 1, and its p: as functions of floats, typed again."""
     tangent, square = math.tan(math.pi * n * eta), nu * nu
@@ -268,52 +249,6 @@ def below(n, eta, nu):
         return mass - 1 + p * (1 - np.cos(t)) - eta * tangent * np.sin(t)
 
     return inside, p
-
-
-def test_lemma_6_what_decides_a_window_falls_and_is_convex():
-    for n in (1, 2, 7):
-        eta = np.linspace(0.5 / n, 1 / n, 2001)[1:]
-        e = (eta * np.tan(np.pi * n * eta)) ** 2
-        assert (np.diff(e) < 0).all()
-        assert (np.diff(e, 2)[1:-2] > 0).all()
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("nu", [-0.05, -0.2, -0.3])
-def test_lemma_7_no_stable_orbit_with_longer_flights_but_one(nu):
-    """By scans of the gap, from just after the saddle-nodes; n = 1, 3/2 < eta < 2 has some."""
-    seen = set()
-    for n in range(1, 13):
-        times = np.linspace(0, math.tau * n, 300 * n + 1)[2:-2]
-        for m in range(1, int(2.6 * n)):
-            low, high = (m + 0.5) / n, (m + 1) / n
-            about = saddle_node(n, nu, low + 1e-9, high)
-            for share in (1e-6, 1e-4, 1e-3, 0.01, 0.1, 0.5, 0.9):
-                inside, p = below(n, about + (high - about) * share, nu)
-                if inside is not None and p < about**2 and inside(times).max() < 0:
-                    seen.add((n, m))
-    assert seen == {(1, 1)}
-
-
-@pytest.mark.parametrize("nu", [-0.05, -0.2, -0.3])
-def test_lemma_8_the_flight_of_half_the_springs_period(nu):
-    """D < 0 away from pi; concave there, and growing with eta, while p < 0."""
-    saddle = saddle_node(1, nu, 1.5001, 2)
-    far = np.concatenate(
-        (np.linspace(0.05, math.pi - 5 / 7, 99), np.linspace(math.pi + 5 / 7, 6.2))
-    )
-    near, before = math.pi + np.linspace(-5 / 7, 5 / 7, 101), None
-    for eta in np.linspace(saddle + 1e-9, 2, 40)[:-1]:
-        inside, p = below(1, eta, nu)
-        if p >= 0:
-            assert inside(math.pi) > 0
-            continue
-        assert (inside(far) < 0).all()
-        now = inside(near)
-        assert (np.diff(now, 2) < -(1 / 5) * (near[1] - near[0]) ** 2).all()
-        assert before is None or (now > before).all()
-        before = now
-    assert before is not None
 
 
 @pytest.mark.parametrize(

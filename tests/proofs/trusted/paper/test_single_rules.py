@@ -320,19 +320,6 @@ def test_windows_in_nu_are_not_talked_into(document):
 # -- the claims ----------------------------------------------------------------------------------
 
 
-def test_verdicts(document):
-    verdicts = {entry["id"]: entry["verdict"] for entry in document["claims"]}
-    assert verdicts == {
-        "P1": "VERIFIED",
-        "P2": "CONDITIONAL",
-        "P3": "VERIFIED",
-        "P4": "CONDITIONAL",
-        "P5": "REFUTED",
-        "P6": "REFUTED",
-    }
-    assert {claim.id for claim in check(json.dumps(document)).claims} == set(CLAIMS)
-
-
 @pytest.mark.parametrize(("eta", "nu"), [("0.237", "0.3"), ("0.6", "-0.9"), ("1e-30", "0.3")])
 def test_orbits_at_parameters_of_ones_own_stand_beside_the_papers_solutions(eta, nu):
     of = replace(PAPER, eta=Fraction(eta), nu=Fraction(nu), reach=None)
@@ -349,17 +336,6 @@ def steps_of_text(source):
 
 def verdict(claim, conclusions):
     return find(claim).decide(PAPER, conclusions).verdict
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("claim", CLAIMS)
-def test_a_claim_without_one_of_its_conclusions_is_undecided(claim, evidence):
-    """But for orbits, which are examples."""
-    proof = [conclusion for _, conclusion in evidence.proofs[claim]]
-    assert verdict(claim, proof) is not Verdict.UNDECIDED
-    for index, conclusion in enumerate(proof):
-        if not (isinstance(conclusion, Solution) and conclusion.first):
-            assert verdict(claim, proof[:index] + proof[index + 1 :]) is Verdict.UNDECIDED
 
 
 ONE, OFF = Fraction(1), Fraction(1, 1000)

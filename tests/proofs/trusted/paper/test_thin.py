@@ -14,7 +14,6 @@ from proofs.trusted.numbers import Phases, within
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s32_sets.repeller import Repeller
 from proofs.trusted.paper.s34_circle.thin import ThinShift
-from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import check
@@ -57,15 +56,6 @@ def test_one_sentence_says_all_of_it():
     assert shifts()[3].shift.sentence in sentence
     for part in ("0.675267489", "0.5915470", "escape at a rate between 0.525014"):
         assert part in sentence
-
-
-@pytest.mark.parametrize("kind", [StayingSet, Repeller])
-def test_nothing_is_decided_without(kind):
-    found = [each for each in conclusions() if not isinstance(each, kind)]
-    assert decide(found).verdict is Verdict.UNDECIDED
-    elsewhere = replace(PAPER, nu=Fraction("-0.21")).place
-    moved = [replace(x, at=elsewhere) if isinstance(x, kind) else x for x in conclusions()]
-    assert decide(moved).verdict is Verdict.UNDECIDED
 
 
 def test_one_growth_is_not_enough():
