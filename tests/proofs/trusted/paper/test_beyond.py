@@ -113,27 +113,6 @@ def test_images_that_pass_phase_0():
 
 
 @pytest.mark.parametrize(
-    "parts",
-    [
-        TENT[:1],  # one cell
-        (),
-        (TENT[0], affine("1.3", 2, "2.1", "0.9")),  # they overlap
-        (TENT[0], affine("1.4", 2, "2.1", "0.9")),  # they touch
-        (TENT[0], affine("1.6", 2, "2.1", "1.2")),  # covers half a cell
-        (TENT[0], affine("1.6", 2, "1.5", "1.9")),  # not steep, and no way back
-        (TENT[0], affine("1.6", 2, "1.999999", "0.9")),  # by less than is known
-        (affine(1, "1.4", "0.9", "1.5"), affine("1.6", 2, "1.5", "2.1")),  # two fixed points
-        (affine(1, "1.4", "1.5", "2.1"), affine("1.6", 2, "0.9", "1.5")),  # one orbit of period 2
-        (TENT[0], affine("1.6", 2, "2.1", "0.9", at=THERE)),  # another oscillator
-        (TENT[0], affine("1.6", 2, 4, 5)),  # leads away
-    ],
-)
-def test_what_is_no_markov_set(parts):
-    with pytest.raises(Unproved):
-        markov_set(parts)
-
-
-@pytest.mark.parametrize(
     "changes",
     [
         {"cells": (Phases(F("1.6"), F(2)), Phases(F(1), F("1.4")))},

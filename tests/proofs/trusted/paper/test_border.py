@@ -3,11 +3,9 @@
 import random
 from dataclasses import replace
 from fractions import Fraction
-from functools import cache
 
 import pytest
 
-from proofs.search.s34_persistence import prove
 from proofs.trusted.certificate import Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper import find
@@ -15,28 +13,18 @@ from proofs.trusted.paper.s34_circle.border import Border, Passes
 from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
 from proofs.trusted.parameters import PAPER
 from tests.oracles.judge import oracle
-from tests.proofs.trusted.paper.steps import add, apply, derive, edited
+from tests.proofs.trusted.paper.steps import add, apply, derive, edited, evidence, known_of
 
 pytestmark = pytest.mark.slow
 RESTS, PASSES = "superstable-motion-2", "passes-separation-1"
 
 
-@cache
-def evidence():
-    return prove(PAPER, ("G15",))
-
-
-@cache
 def known():
-    return derive(evidence().steps)
-
-
-def kinds(*left_out):
-    return [x for name, x in known().items() if name not in left_out]
+    return known_of("persistence")
 
 
 def test_what_is_said():
-    decision = find("G15").decide(PAPER, kinds())
+    decision = find("G15").decide(PAPER, [x for _, x in evidence("persistence").proofs["G15"]])
     assert find("G15").own and decision.verdict.value == "VERIFIED"
     low, high = decision.quantities["epsilon_border"]
     assert low < Fraction("0.3611125") < high < low + Fraction(11, 10**7)
@@ -73,7 +61,9 @@ FLIES, CELL = (PASSES, "witness"), (RESTS, "witness", "cells", 0)
     ],
 )
 def test_an_edited_witness_is_refused(path, change):
-    steps = {k: x for k, x in evidence().steps.items() if k in ("separation-1", path[0])}
+    steps = {
+        k: x for k, x in evidence("persistence").steps.items() if k in ("separation-1", path[0])
+    }
     derive(steps)
     with pytest.raises((Unproved, Malformed)):
         derive(edited(steps, path, change))

@@ -4,7 +4,6 @@ Expected values come from `reference` (equation (10) typed by hand, mpmath at 50
 closed forms, and from brute force over flights in floating point.
 """
 
-import json
 import random
 from dataclasses import replace
 from fractions import Fraction
@@ -18,10 +17,9 @@ from proofs.motion.system import System
 from proofs.motion.witness import HORIZON
 from proofs.report.figures.transients import bars
 from proofs.search import s34_circle as circle
-from proofs.search.evidence import Evidence
 from proofs.search.s34_absorbing import Partition
 from proofs.search.steps import Prover
-from proofs.shell.groups import certificate, decide, wanted
+from proofs.shell.groups import decide, wanted
 from proofs.trusted.certificate import Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import Phase, Phases
@@ -31,15 +29,14 @@ from proofs.trusted.paper.s34_circle.cells import Cell, Inverse, _links, absorbe
 from proofs.trusted.paper.s34_circle.circle import ROWS
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
 from proofs.trusted.paper.s34_circle.transients import long_transients
-from proofs.trusted.paper.staying import StayingSet, staying_set
+from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
-from proofs.trusted.verify import check
 from tests.oracles.circle import impacts_before_rest
 from tests.oracles.judge import oracle
 from tests.oracles.motion import Impact, flight
 from tests.proofs.trusted.paper import reference
-from tests.proofs.trusted.paper.steps import add, apply, derive, edited, texts
+from tests.proofs.trusted.paper.steps import add, apply, derive, edited, evidence, known_of, texts
 
 ETA, NU = mpf("0.2121"), mpf("-0.2")
 SYSTEM = System(PAPER.eta, PAPER.nu)
@@ -202,8 +199,11 @@ def test_cells_are_ordered_and_gaps_are_filled():
 
 @pytest.fixture(scope="module")
 def arc():
-    prover = Prover(SYSTEM, 30, HORIZON)
-    return prover, *circle.prove_arc(prover)
+    return known_of("circle")["separation-1"]
+
+
+def separating():
+    return evidence("circle").steps["separation-1"]["witness"]
 
 
 def inside(bounds, value, digits=30):
@@ -212,21 +212,20 @@ def inside(bounds, value, digits=30):
 
 
 def test_separation_against_fifty_digits(arc):
-    found = arc[2]
     phase = reference.separation_phase(ETA, NU)
-    assert inside(found.phase, phase)
-    assert inside(found.start, 3 * mp.pi - phase)
+    assert inside(arc.phase, phase)
+    assert inside(arc.start, 3 * mp.pi - phase)
     time = mp.findroot(lambda t: reference.left_side_10(ETA, NU, phase, t), mpf("23.7278"))
-    assert inside(found.time, time)
-    assert inside(found.arrival, (phase + time) % (2 * mp.pi))
+    assert inside(arc.time, time)
+    assert inside(arc.arrival, (phase + time) % (2 * mp.pi))
     assert mp.nstr((phase + time) % (2 * mp.pi), 10) == "4.640489737"
-    assert found.returns
+    assert arc.returns
 
 
 @pytest.mark.parametrize("field", ["phase", "time"])
 @pytest.mark.parametrize("by", ["1e-20", "-1e-20", "1"])
 def test_a_moved_separation_is_refused(arc, field, by):
-    witness = arc[0].steps["separation-1"]["witness"]
+    witness = separating()
     assert isinstance(apply("separation", witness), Separation)
     with pytest.raises(Unproved):
         apply("separation", witness | {field: list(map(add(by), witness[field]))})
@@ -234,7 +233,7 @@ def test_a_moved_separation_is_refused(arc, field, by):
 
 def test_a_phase_that_flies_is_no_separation(arc):
     """The flights from [6.05, 6.0501] end between 23.7 and 23.75, but the launches do not stick."""
-    witness = arc[0].steps["separation-1"]["witness"]
+    witness = separating()
     with pytest.raises(Unproved, match="does not change sign"):
         apply("separation", witness | {"phase": ["121/20", "60501/10000"]})
 
@@ -273,9 +272,8 @@ def test_there_is_no_sticking_arc_without_its_ends():
 
 @pytest.fixture(scope="module")
 def never():
-    prover = Prover(SYSTEM, 30, HORIZON)
-    name, found = circle.prove_longest(prover)
-    return prover.steps[name]["witness"], found
+    name = "never-impacts-1"
+    return evidence("circle").steps[name]["witness"], known_of("circle")[name]
 
 
 def test_phases_that_never_impact_are_all_of_an_interval(never):
@@ -284,12 +282,6 @@ def test_phases_that_never_impact_are_all_of_an_interval(never):
     low, high = never[1].phases
     for phase in (low - Fraction(2, 10**8), high + Fraction(2, 10**8)):
         assert isinstance(flight(PAPER.eta, PAPER.nu, phase, latest=70_000.0), Impact)
-
-
-def test_the_longest_interval_is_accepted(never):
-    assert (
-        apply("never-impacts", never[0]) == never[1] == NeverImpacts(PAPER.place, never[1].phases)
-    )
 
 
 FURTHER, TURN = Fraction(1, 10**7), Fraction("6.283185307")
@@ -346,29 +338,18 @@ def test_flights_without_an_end_whatever_the_frequency(eta, nu):
 
 
 @pytest.fixture(scope="module")
-def coarse(arc):
-    """A coarse partition: few branches, wide cells, 12 impacts."""
+def coarse():
+    """The steps of a coarse partition: few branches, wide cells, 12 impacts."""
     prover = Prover(SYSTEM, 30, HORIZON)
-    separation = circle.prove_arc(prover)
-    never = circle.prove_longest(prover)
-    step = Partition(prover, separation, never, goal=0.1, most=500, turns=25, impacts=12).prove()
-    proofs = {"G3": [separation], "G10": [never, step]}
-    evidence = Evidence(prover.steps, proofs)
-    entries = [decide(claim, PAPER, evidence, 30)[1] for claim in proofs]
-    return certificate(PAPER, prover.steps, entries), step[1]
-
-
-@pytest.mark.slow
-def test_the_coarse_certificate_is_accepted(coarse):
-    assert oracle(coarse[1], random.Random(1)) == []
-    report = check(json.dumps(coarse[0]))
-    assert [claim.verdict for claim in report.claims] == [Verdict.VERIFIED, Verdict.REFUTED]
+    ends = circle.prove_arc(prover), circle.prove_longest(prover)
+    Partition(prover, *ends, goal=0.1, most=500, turns=25, impacts=12).prove()
+    return prover.steps
 
 
 @pytest.fixture(scope="module")
 def derived(coarse):
-    """What the checker derives from each step of the coarse certificate."""
-    return derive(coarse[0]["steps"])
+    """What the checker derives from each of them."""
+    return derive(coarse)
 
 
 ABSORPTION, LANDS = ("absorption-1", "witness"), ("lands-1", "witness")
@@ -404,22 +385,22 @@ EDITS = {
 @pytest.mark.parametrize("name", EDITS)
 def test_edited_steps_are_refused(coarse, derived, name):
     path, change, message = EDITS[name]
-    refused(coarse, derived, edited(coarse[0]["steps"], path, change), message)
+    refused(coarse, derived, edited(coarse, path, change), message)
 
 
 def refused(coarse, derived, steps, message):
     with pytest.raises((Unproved, Malformed), match=message):
-        derive(steps, known=derived, originals=coarse[0]["steps"])
+        derive(steps, known=derived, originals=coarse)
 
 
 def test_a_grazing_phase_is_not_absorbed(coarse, derived):
-    cut = Fraction(coarse[0]["steps"]["branch-1"]["witness"]["cuts"][-1])
+    cut = Fraction(coarse["branch-1"]["witness"]["cuts"][-1])
     assert not any(low <= cut <= high for (low, high), _ in derived["absorption-1"].within)
 
 
 def test_cells_begin_after_the_last_zero_of_the_sine_and_before_the_impacts(coarse, derived):
     """Of a branch whose window begins before a zero of sin(eta t)."""
-    steps = coarse[0]["steps"]
+    steps = coarse
     cells = steps["absorption-1"]["witness"]["cells"]
 
     def half_turns(time):
@@ -443,7 +424,7 @@ def test_cells_begin_after_the_last_zero_of_the_sine_and_before_the_impacts(coar
 
 def test_a_later_crossing_is_not_the_first_impact(coarse, derived):
     """The gap, continued below the table, falls through 0 again later: signs +, - there too."""
-    steps = coarse[0]["steps"]
+    steps = coarse
     cell = steps["absorption-1"]["witness"]["cells"][0]
     cut, first = (float(Fraction(cell[name][1]) * UNIT) for name in ("cuts", "times"))
 
@@ -459,58 +440,16 @@ def test_a_later_crossing_is_not_the_first_impact(coarse, derived):
     refused(coarse, derived, forged, "leaves the window")
 
 
-def test_the_figure_draws_what_is_proved(coarse):
-    drawn = [(low, high, count) for (low, high), (_, count) in bars(coarse[1])]
+def test_the_figure_draws_what_is_proved(derived):
+    found = derived["absorption-1"]
+    drawn = [(low, high, count) for (low, high), (_, count) in bars(found)]
     covered = 2.66606 + sum(high - low for low, high, _ in drawn)  # the sticking arc, and bars
-    left = float(coarse[1].rest[-1])
+    left = float(found.rest[-1])
     assert 2 * np.pi - 3 * left < covered < 2 * np.pi
     assert all(0 <= low < high <= 2 * np.pi for low, high, _ in drawn)
     for low, high, count in drawn:
         steps = impacts_before_rest(PAPER.eta, PAPER.nu, 0.3 * low + 0.7 * high, count)
         assert steps is not None and steps <= count
-
-
-# -- images beside phase 0 -----------------------------------------------------------------------
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("eta", "nu", "phases"),
-    [("5/22", "-0.95", ("1.228", "1.236")), ("1/6", "-0.45", ("1.246", "1.25"))],
-)
-def test_an_image_that_straddles_a_turn_is_none(eta, nu, phases):
-    """f takes both ends just beyond 0, below the interval. From a time before phase 0 on, the image
-    of the upper end is enclosed on both sides of 2 pi: not "beyond the right end", but refused."""
-    of = replace(PAPER, eta=Fraction(eta), nu=Fraction(nu))
-    ends = [Fraction(x) for x in phases]
-    numbers = [mpf(x.numerator) / x.denominator for x in (of.eta, of.nu)]
-    flights = [reference.first_impact(*numbers, mpf(x)) for x in phases]
-    assert all(0 < image < 1 for _, image in flights)
-    hits = [Fraction(round(float(time) * 10**9), 10**9) for time, _ in flights]
-    early = hits[1] - Fraction(round((float(flights[1][1]) + 0.0004) * 10**6), 10**6)
-    thin, last = Fraction(1, 10**7), max(hits) + Fraction(1, 50)
-    grid = sorted({*(Fraction(3 * k, 100) for k in range(1, 17)), *_every(Fraction(1, 2), early)})
-    impact = apply("first-impact", {"phases": texts(ends), "times": texts([*grid, last])}, of=of)
-    assert impact.transversal
-
-    def point(phase, low, high):
-        return {"flight": "wide", "phase": str(phase), "time": texts((low, high))}
-
-    brackets = [(hits[0] - thin, hits[0] + thin), (hits[1] - thin, hits[1] + thin)]
-    whole = texts((min(hits) - Fraction(1, 200), max(hits) + Fraction(1, 200)))
-    pieces = [{"flight": "wide", "time": whole}]
-    witness = {"points": [point(x, *b) for x, b in zip(ends, brackets, strict=True)]}
-    found = apply("slope-range", witness | {"pieces": pieces}, {"wide": impact}, of)
-    with pytest.raises(Unproved, match="in order"):
-        staying_set([Phases(*ends)], [found], [])
-    witness["points"][1] = point(ends[1], early, hits[1] + thin)
-    found = apply("slope-range", witness | {"pieces": pieces}, {"wide": impact}, of)
-    with pytest.raises(Unproved, match="straddles 2 pi"):
-        staying_set([Phases(*ends)], [found], [])
-
-
-def _every(low, high, unit=Fraction(1, 100)):
-    return [low + k * unit for k in range(int((high - low) / unit) - 9)]
 
 
 # -- decisions -----------------------------------------------------------------------------------
@@ -522,7 +461,7 @@ def test_nothing_is_claimed_where_the_mass_does_not_stick_and_fly():
 
 
 def test_an_orbit_elsewhere_is_not_the_printed_one(arc):
-    found = arc[2]
+    found = arc
     for other in (("5", "5.1"), ("1", "1.1")):
         moved_ = replace(found, arrival=Phase(*map(Fraction, other)))
         assert find("G2").decide(PAPER, [moved_]).verdict is Verdict.UNDECIDED
@@ -537,7 +476,7 @@ def followed(arc, rest, *within):
 
 
 def test_most_is_verified_and_almost_every_open_without_free_phases(arc):
-    found = [followed(arc[2], (4, "1/1000"), (-1, 1, 1))]
+    found = [followed(arc, (4, "1/1000"), (-1, 1, 1))]
     strong = find("G10").decide(PAPER, found)
     assert strong.verdict is Verdict.UNDECIDED
     assert strong.quantities["basin_fraction"][0] > Fraction("0.999")
@@ -562,7 +501,7 @@ def test_two_basins_need_nearly_all_of_the_circle_and_narrow_ends(
 ):
     ends = tuple((Fraction(low), Fraction(high)) for low, high in sides)
     never = NeverImpacts(PAPER.place, Phases(ends[0][1], ends[1][0]))
-    known = followed(arc[2], (4, "0.0023" if measure else open_), (-1, 1, 1))
+    known = followed(arc, (4, "0.0023" if measure else open_), (-1, 1, 1))
     if measure:
         known = replace(known, sink=Sink(never, ends, Fraction(measure)), open=Fraction(open_))
         assert "or to phases of [1.57" in known.sentence
@@ -577,7 +516,7 @@ def test_two_basins_need_nearly_all_of_the_circle_and_narrow_ends(
 def test_what_is_open_rests_on_a_sink_of_the_same_oscillator(arc):
     ends = tuple((Fraction(low), Fraction(high)) for low, high in SIDES)
     elsewhere = replace(PAPER, nu=Fraction("-0.3")).place
-    known = followed(arc[2], (4, 1), (-1, 1, 1))
+    known = followed(arc, (4, 1), (-1, 1, 1))
     for change, message in (
         ({"open": Fraction(1, 2)}, "a sink that is not known"),
         ({"open": Fraction(2)}, "no bound"),
@@ -602,10 +541,10 @@ def test_the_ends_of_a_sink_are_brackets_of_its_interval(ends):
 @pytest.mark.parametrize("claim", ["G4", "G10", "G13"])
 def test_the_basin_is_that_of_the_printed_orbit(arc, claim):
     """Of another orbit, or of half the circle, nothing is said."""
-    elsewhere = replace(arc[2], arrival=Phase(Fraction("4.65"), Fraction("4.66")))
+    elsewhere = replace(arc, arrival=Phase(Fraction("4.65"), Fraction("4.66")))
     for found in ([followed(elsewhere, (4, "1/1000"), (-1, 1, 1))], []):
         assert find(claim).decide(PAPER, found).verdict is Verdict.UNDECIDED
-    half = followed(arc[2], (4, 4), (-1, 1, 1))
+    half = followed(arc, (4, 4), (-1, 1, 1))
     assert half.share < Fraction(1, 2)
     assert find("G4").decide(PAPER, [half]).verdict is Verdict.UNDECIDED
 
@@ -622,7 +561,7 @@ def test_the_basin_is_that_of_the_printed_orbit(arc, claim):
     ],
 )
 def test_stability_needs_an_impact_inside_the_arc_and_at_the_printed_phase(arc, arrival, verdict):
-    found = replace(arc[2], arrival=Phase(*map(Fraction, arrival)))
+    found = replace(arc, arrival=Phase(*map(Fraction, arrival)))
     assert find("G3").decide(PAPER, [found]).verdict is verdict
 
 
@@ -647,7 +586,7 @@ def shift(low="1.1", high="1.49"):
     ],
 )
 def test_long_transients_need_phases_that_stick_inside_of_a_shift(arc, within, interval, verdict):
-    known = followed(arc[2], (4, 1), *within)
+    known = followed(arc, (4, 1), *within)
     decision = find("G6").decide(PAPER, [shift(*interval), known])
     assert decision.verdict is verdict
     if verdict is Verdict.VERIFIED:
@@ -656,12 +595,12 @@ def test_long_transients_need_phases_that_stick_inside_of_a_shift(arc, within, i
 
 
 def test_a_shift_where_the_mass_sticks_says_nothing(arc):
-    stuck = replace(arc[2], start=Phase(Fraction("1.4"), Fraction("1.41")))
+    stuck = replace(arc, start=Phase(Fraction("1.4"), Fraction("1.41")))
     with pytest.raises(Unproved, match="before the sticking arc"):
         long_transients(shift(), followed(stuck, (4, 1), ("1.2", "1.3", 3)))
     elsewhere = replace(shift(), at=replace(PAPER, nu=Fraction("-0.3")).place)
     with pytest.raises(Unproved, match="different oscillators"):
-        long_transients(elsewhere, followed(arc[2], (4, 1), ("1.2", "1.3", 3)))
+        long_transients(elsewhere, followed(arc, (4, 1), ("1.2", "1.3", 3)))
 
 
 @pytest.mark.slow

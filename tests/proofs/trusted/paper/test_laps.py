@@ -14,11 +14,7 @@ from itertools import pairwise, product
 
 import pytest
 
-from proofs.motion.system import System
-from proofs.motion.witness import HORIZON
-from proofs.search.evidence import Evidence
-from proofs.search.s34_whole import prove, prove_grazes
-from proofs.search.steps import Prover
+from proofs.search.s34_whole import prove
 from proofs.trusted.certificate import Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper import find
@@ -40,6 +36,7 @@ from proofs.trusted.verdicts import Verdict
 from tests.oracles.judge import oracle
 from tests.oracles.motion import TURN, Impact, next_impact
 from tests.proofs.trusted.paper.steps import add, apply, derive, edited
+from tests.proofs.trusted.paper.steps import evidence as committed_evidence
 
 OF = replace(PAPER, eta=F("0.21"))
 
@@ -119,13 +116,12 @@ def test_words_counted_by_brute_force_grow_as_is_proved(known):
 
 @pytest.fixture(scope="module")
 def roots():
-    prover = Prover(System(PAPER.eta, PAPER.nu), 30, HORIZON)
-    return Evidence(prover.steps, {"H18": prove_grazes(prover)})
+    """The grazes at the paper's numbers."""
+    return [x for _, x in committed_evidence("entropy").proofs["H18"] if isinstance(x, Grazing)]
 
 
 def test_the_square_roots_at_the_ends_of_the_first_branches(roots):
-    found = derive(roots.steps, PAPER)
-    own = [found[name] for name, _ in roots.proofs["H18"]]
+    own = roots
     for one, near in zip(own, ("1.2", "1.36", "1.5", "1.57"), strict=True):
         assert abs(one.phases[0] - F(near)) < F(1, 200) and one.below
     decision = find("H18").decide(PAPER, own)
@@ -136,7 +132,7 @@ def test_the_square_roots_at_the_ends_of_the_first_branches(roots):
 
 
 def test_h18_needs_each_of_its_grazes_narrowly(roots):
-    own = [conclusion for _, conclusion in roots.proofs["H18"]]
+    own = roots
     for i, one in enumerate(own):
         wide = replace(one, root=(one.root[0], one.root[1] + F(1, 10**8)))
         flat = replace(one, landing=one.time, beyond=one.turn)  # no jump
@@ -165,7 +161,7 @@ def test_pieces_between_other_grazes_are_not_told_of(known, roots):
         with pytest.raises(Unproved):
             Between(pieces, wrong)
     with pytest.raises(Unproved, match="one oscillator"):
-        Between(pieces, tuple(x for _, x in roots.proofs["H18"]))
+        Between(pieces, tuple(roots))
     last = [x for x in pieces.arcs if isinstance(x, Grazing) and not x.below]
     with pytest.raises(Unproved, match="no piece"):
         Between(pieces, tuple(last))
