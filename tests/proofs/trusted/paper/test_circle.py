@@ -17,7 +17,6 @@ from proofs.motion.system import System
 from proofs.motion.witness import HORIZON
 from proofs.report.figures.transients import bars
 from proofs.search import s34_circle as circle
-from proofs.search.s34_absorbing import Partition
 from proofs.search.steps import Prover
 from proofs.shell.groups import decide, wanted
 from proofs.trusted.certificate import Malformed
@@ -37,9 +36,10 @@ from tests.oracles.judge import oracle
 from tests.oracles.motion import Impact, flight
 from tests.proofs.trusted.paper import reference
 from tests.proofs.trusted.paper.steps import add, apply, derive, edited, evidence, known_of, texts
+from tests.proofs.trusted.paper.test_edits import coarse
+from tests.proofs.trusted.paper.test_edits import derived as conclusions
 
 ETA, NU = mpf("0.2121"), mpf("-0.2")
-SYSTEM = System(PAPER.eta, PAPER.nu)
 CLAIMS = tuple(row.id for row in ROWS)
 
 
@@ -338,18 +338,9 @@ def test_flights_without_an_end_whatever_the_frequency(eta, nu):
 
 
 @pytest.fixture(scope="module")
-def coarse():
-    """The steps of a coarse partition: few branches, wide cells, 12 impacts."""
-    prover = Prover(SYSTEM, 30, HORIZON)
-    ends = circle.prove_arc(prover), circle.prove_longest(prover)
-    Partition(prover, *ends, goal=0.1, most=500, turns=25, impacts=12).prove()
-    return prover.steps
-
-
-@pytest.fixture(scope="module")
-def derived(coarse):
-    """What the checker derives from each of them."""
-    return derive(coarse)
+def derived():
+    """What the checker derives from each of the steps of the coarse partition."""
+    return conclusions(PAPER, coarse).known
 
 
 ABSORPTION, LANDS = ("absorption-1", "witness"), ("lands-1", "witness")
@@ -365,24 +356,24 @@ EDITS = {
 
 
 @pytest.mark.parametrize("name", EDITS)
-def test_edited_steps_are_refused(coarse, derived, name):
+def test_edited_steps_are_refused(derived, name):
     path, change, message = EDITS[name]
-    refused(coarse, derived, edited(coarse, path, change), message)
+    refused(derived, edited(coarse(), path, change), message)
 
 
-def refused(coarse, derived, steps, message):
+def refused(derived, steps, message):
     with pytest.raises((Unproved, Malformed), match=message):
-        derive(steps, known=derived, originals=coarse)
+        derive(steps, known=derived, originals=coarse())
 
 
-def test_a_grazing_phase_is_not_absorbed(coarse, derived):
-    cut = Fraction(coarse["branch-1"]["witness"]["cuts"][-1])
+def test_a_grazing_phase_is_not_absorbed(derived):
+    cut = Fraction(coarse()["branch-1"]["witness"]["cuts"][-1])
     assert not any(low <= cut <= high for (low, high), _ in derived["absorption-1"].within)
 
 
-def test_cells_begin_after_the_last_zero_of_the_sine_and_before_the_impacts(coarse, derived):
+def test_cells_begin_after_the_last_zero_of_the_sine_and_before_the_impacts(derived):
     """Of a branch whose window begins before a zero of sin(eta t)."""
-    steps = coarse
+    steps = coarse()
     cells = steps["absorption-1"]["witness"]["cells"]
 
     def half_turns(time):
@@ -397,16 +388,15 @@ def test_cells_begin_after_the_last_zero_of_the_sine_and_before_the_impacts(coar
     late = (min(map(Fraction, cell["times"])) * UNIT + min(end for _, end in branch.windows)) / 2
     for time, message in ((branch.times[0], "one sign"), (late, "not excluded")):
         refused(
-            coarse,
             derived,
             edited(steps, (*CELLS, index, "after"), lambda x, time=time: str(time)),
             message,
         )
 
 
-def test_a_later_crossing_is_not_the_first_impact(coarse, derived):
+def test_a_later_crossing_is_not_the_first_impact(derived):
     """The gap, continued below the table, falls through 0 again later: signs +, - there too."""
-    steps = coarse
+    steps = coarse()
     cell = steps["absorption-1"]["witness"]["cells"][0]
     cut, first = (float(Fraction(cell[name][1]) * UNIT) for name in ("cuts", "times"))
 
@@ -419,7 +409,7 @@ def test_a_later_crossing_is_not_the_first_impact(coarse, derived):
     root = mp.findroot(gap, (mpf(begin), mpf(begin + 0.05)), solver="anderson")
     later = int((root - mpf(2) ** -41) * 2**48)
     forged = edited(steps, (*CELLS, 0, "times", 1), lambda x: str(later))
-    refused(coarse, derived, forged, "leaves the window")
+    refused(derived, forged, "leaves the window")
 
 
 def test_the_figure_draws_what_is_proved(derived):

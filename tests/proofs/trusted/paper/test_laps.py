@@ -37,23 +37,18 @@ from tests.oracles.judge import oracle
 from tests.oracles.motion import TURN, Impact, next_impact
 from tests.proofs.trusted.paper.steps import add, apply, derive, edited
 from tests.proofs.trusted.paper.steps import evidence as committed_evidence
-
-OF = replace(PAPER, eta=F("0.21"))
-
-
-@pytest.fixture(scope="module")
-def evidence():
-    return prove(OF, ("G17", "G18"))
+from tests.proofs.trusted.paper.test_edits import TEN_PIECES as OF
+from tests.proofs.trusted.paper.test_edits import derived, few_pieces
 
 
 @pytest.fixture(scope="module")
-def steps(evidence):
-    return evidence.steps
+def steps():
+    return few_pieces()
 
 
 @pytest.fixture(scope="module")
-def known(steps):
-    return derive(steps, OF)
+def known():
+    return derived(OF, few_pieces).known
 
 
 def only(kind, known):
