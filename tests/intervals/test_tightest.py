@@ -18,14 +18,6 @@ from tests.intervals import oracle
 from tests.intervals.boxes import for_all, numbers, precisions
 from tests.intervals.oracle import encloses, exponent, outward, quarter_turns, rounded
 
-DOMAINS = {
-    "sqrt": lambda x: x >= 0,
-    **{name: lambda x: x > 0 for name in ("log", "log2", "log10")},
-    "log1p": lambda x: x > -1,
-    **{name: lambda x: abs(x) <= 1 for name in ("asin", "acos")},
-    "acosh": lambda x: x >= 1,
-    "atanh": lambda x: abs(x) < 1,
-}
 LARGEST = dict.fromkeys(("exp", "exp2", "exp10", "sinh", "cosh"), 2**20) | {
     "expm1": 500,  # beyond these the oracle would need as many bits
     "tanh": 500,
@@ -64,7 +56,7 @@ def into_domain(name, x):
 
 
 def in_domain(name, x):
-    return DOMAINS.get(name, lambda _: True)(x)
+    return oracle.DOMAINS.get(name, lambda _: True)(x)
 
 
 def check(name, x, precision):
