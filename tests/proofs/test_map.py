@@ -145,6 +145,7 @@ def test_fixed_points_of_the_bouncing_ball():
         assert v == pytest.approx(0.1 * math.pi * turns) and math.cos(phi) == pytest.approx(v / 3)
 
 
+@pytest.mark.slow
 def test_the_next_impact_of_the_bouncing_ball():
     phi, v, h = 1.02, 1.57, 1e-5
     t = np.arange(1, 10**7) * h
@@ -173,6 +174,7 @@ def test_a_horseshoe_of_the_bouncing_ball():
     assert (entropy.growth, entropy.length) == (2, 1) and not cone.forward
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "state", "told"),
     [
@@ -187,6 +189,7 @@ def test_what_happens_instead_of_an_impact_is_said_with_the_next_step(name, stat
     assert "give" in str(reason.value) and "\n" not in str(reason.value)
 
 
+@pytest.mark.slow
 def test_orbits_with_two_walls():
     walls = System.example("two-walls")
     (found,) = accepted(walls.orbits(1))
@@ -280,6 +283,7 @@ def test_the_time_is_over(capsys):
     assert said.count("stopped after 0.7 seconds, as asked") == 2 and "points at random" not in said
 
 
+@pytest.mark.slow
 def test_effort_is_how_much_is_looked_at():
     few, many = System.example("bouncing-ball"), System.example("bouncing-ball")
     few.effort, many.effort = 1, 3

@@ -184,6 +184,7 @@ def test_what_a_candidate_is(condition, lines, wanted):
         assert found[place].kept or found[place].found.why
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("root", ["1/2", "-3", "7/5"])
 @pytest.mark.parametrize(
     ("lines", "names"),
@@ -237,6 +238,7 @@ def test_on_which_side_it_is_by_counting(condition, line, side):
     assert here != there and (here > there) is ("greater" in side)
 
 
+@pytest.mark.slow
 def test_closed_forms_and_enclosures_agree():
     """The real multipliers 3 + 2 sqrt(2), 3 - 2 sqrt(2) are none either way; the fold is one."""
     lines = ("x1 = y", "y1 = -b*x + y^2 + x*y")
@@ -249,6 +251,7 @@ def test_closed_forms_and_enclosures_agree():
     assert found.signs == near.signs and found.found.kind == "fold"
 
 
+@pytest.mark.slow
 def test_what_depends_on_parameters_is_a_condition():
     (flip,) = candidates("flip", ("x", "y", "a"), *HENON)
     assert flip.found.kind == "flip" and "critical is not 0" in flip.found.where

@@ -174,6 +174,7 @@ def has_rows(path):
             return False
 
 
+@pytest.mark.slow
 def test_an_interrupt_says_that_all_is_saved_and_what_goes_on(tmp_path):
     process = start(tmp_path, 12, stderr=subprocess.PIPE, text=True)
     while process.poll() is None and not has_rows(tmp_path / NAME):
@@ -315,6 +316,7 @@ def small(tmp_path):
     return tmp_path
 
 
+@pytest.mark.slow
 def test_lines_of_what_there_is(small, capsys):
     """Also while cells are not looked at; what reads it are others' tables, too."""
     assert atlas.main(["--out", str(small), "--lines"]) == 0

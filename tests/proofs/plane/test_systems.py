@@ -66,6 +66,7 @@ def test_all_functions_of_a_certificate_are_those_of_the_box():
         assert REGION.subject.is_about(certificate, None, SIDES) is is_so
 
 
+@pytest.mark.slow
 def test_cells_are_where_the_orbit_is_stable(lines):
     areas = check_atlas(written(lines))
     assert F(1, 6) < areas.shares["VERIFIED"] < F("0.347") and areas.cells["UNDECIDED"] > 0
@@ -110,6 +111,7 @@ LIES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", LIES)
 def test_lies_are_refused(lines, name):
     edited = json.loads(json.dumps(lines))

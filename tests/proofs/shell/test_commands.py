@@ -224,6 +224,7 @@ def test_the_checker_reads_what_is_piped_in():
         assert done.stderr.startswith(b"standard input: malformed")
 
 
+@pytest.mark.slow
 def test_the_checker_says_what_a_ledger_is(tmp_path, capsys):
     assert ledger.main(["--only", "H16", "--quiet", "--out", str(tmp_path)]) == 0
     assert check.main([str(tmp_path / "ledger.json"), str(tmp_path / "MANIFEST.json")]) == 0
