@@ -2,12 +2,8 @@
 
 import json
 import math
-import os
-import subprocess
-import sys
 import time
 from fractions import Fraction
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -296,29 +292,3 @@ def test_many_theorems_are_counted():
         f"- and {len(theorem) - 3} more of this kind, in the certificate"
     )
     assert str(theorem).count("- exactly one") == len(theorem) > 3
-
-
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        [],
-        ["--map", "x", "--effort", "0"],
-        ["--map", "x", "--seconds", "soon"],
-        ["nowhere.toml"],
-        ["--example", "none"],
-        ["--map", "2x"],
-        ["--map", "x", "--ask", "orbits:0"],
-        ["--map", "x", "--set", "r"],
-        ["--map", "x", "--box", "x=1"],
-        ["--map", "x", "--box", "y=0:1"],
-        ["--map", "x", "--example", "wall"],
-        ["--map", "x/2", "--figure"],
-    ],
-)
-def test_bad_input_is_one_line_and_status_2(arguments, tmp_path):
-    command = [sys.executable, "-m", "proofs", "system", *arguments]
-    where = {**os.environ, "PYTHONPATH": str(Path(proofs.__file__).parents[1])}
-    done = subprocess.run(
-        command, cwd=tmp_path, env=where, capture_output=True, text=True, check=False
-    )
-    assert (done.returncode, done.stdout) == (2, "") and done.stderr.count("\n") == 1
