@@ -1,11 +1,9 @@
-import math
 import random
 from fractions import Fraction
 from functools import cache
 
 import numpy as np
 import pytest
-from mpmath import mp, mpf
 
 from intervals import IntervalArray, Undecided
 from proofs.motion.candidate import next_impact
@@ -13,6 +11,8 @@ from proofs.motion.covering import cover_by
 from proofs.motion.kernel import Launches, enclose_times, prove_brackets
 from proofs.motion.system import System
 from proofs.motion.witness import FlightBox
+from tests.intervals.oracle import ends
+from tests.oracles.motion import flight
 
 PAPER = System(Fraction("0.2121"), Fraction("-0.2"))
 OTHER = System(Fraction("0.31"), Fraction("0.4"))  # p < 0: the mass flies above the table
@@ -23,49 +23,11 @@ I0, I1 = (
 CASES = [(PAPER, I0), (PAPER, I1), (OTHER, (Fraction("2.1"), Fraction("2.13")))]
 
 
-def bracket(eta, nu, phi, step=0.01):
-    """Times before and after the first impact, by a scan in floating point."""
-
-    def gap(t):
-        mass = (1 + nu * math.sin(phi)) * math.cos(eta * t)
-        return nu * (
-            mass + nu * math.cos(phi) / eta * math.sin(eta * t) - 1 - nu * math.sin(phi + t)
-        )
-
-    t = 0.1
-    while gap(t) > 0:
-        t += step
-    return t - step, t
-
-
 @cache
 def true_impact(system, phase):
-    """(time, slope) at 50 digits from x - z as printed: a scan, bisection, dt/dphi by hand."""
-    with mp.workdps(50):
-        eta, nu, phi = (
-            mpf(x.numerator) / x.denominator for x in (system.eta, system.nu, Fraction(phase))
-        )
-        side = -1 if nu < 0 else 1
-        lift, rate = nu * mp.sin(phi), nu * mp.cos(phi)
-
-        def gap(t):
-            mass = (1 + lift) * mp.cos(eta * t) + rate / eta * mp.sin(eta * t)
-            return side * (mass - 1 - nu * mp.sin(phi + t))
-
-        low, high = (mpf(t) for t in bracket(*map(float, (system.eta, system.nu, phase))))
-        while high - low > mpf(10) ** -45:
-            middle = (low + high) / 2
-            low, high = (middle, high) if gap(middle) > 0 else (low, middle)
-        t = low
-        by_time = rate * mp.cos(eta * t) - eta * (1 + lift) * mp.sin(eta * t) - nu * mp.cos(phi + t)
-        by_phase = rate * mp.cos(eta * t) - lift / eta * mp.sin(eta * t) - nu * mp.cos(phi + t)
-        return Fraction(*_ratio(t)), Fraction(*_ratio(1 - by_phase / by_time))
-
-
-def _ratio(x):
-    sign, mantissa, exponent, _ = x._mpf_
-    value = Fraction(-mantissa if sign else mantissa) * Fraction(2) ** exponent
-    return value.numerator, value.denominator
+    """(time, slope) to 60 digits, by the oracle."""
+    found = flight(system.eta, system.nu, Fraction(phase))
+    return tuple(sum(ends(x)) / 2 for x in (found.time, found.slope))
 
 
 def holds(x, value, spare=Fraction(1, 10**40)):
@@ -150,9 +112,9 @@ def test_brackets_that_miss_are_refused():
     launches, last, low, high = brackets_of(PAPER, I0)
     prove_brackets(launches, last, low, high)
     for index in (0, 20, 63):
-        for ends in ((low + 2e-2, high), (low, high - 2e-2), (high, low), (low * np.nan, high)):
+        for pair in ((low + 2e-2, high), (low, high - 2e-2), (high, low), (low * np.nan, high)):
             moved = [x.copy() for x in (low, high)]
-            for one, end in zip(moved, ends, strict=True):
+            for one, end in zip(moved, pair, strict=True):
                 one[index] = end[index]
             with pytest.raises(Undecided, match=f"box {index} of 64"):
                 prove_brackets(launches, last, *moved)
