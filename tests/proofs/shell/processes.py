@@ -29,7 +29,7 @@ QUICK = {  # arguments with which a command prints something soon; another one p
     "impact": [*AT, "--phi", "1.11"],
     "ledger": ["--only", "H16", "S22"],
     "nonplastic": ["--only", "N1", "N2"],
-    "orbits": ["--word", "01", "--fast"],
+    "orbits": ["--word", "01"],
     "entropy": ["--only", "H18"],
     "persistence": ["--only", "G8"],
     "resonance": ["--only", "R1"],

@@ -261,8 +261,7 @@ def test_where_writing_fails_in_the_end_nothing_is_printed(
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr("os.fsync", full)
-    base = [*flat(BASES[command]), *(["--fast"] if command is orbits else [])]
-    said = refused(capsys, command, [*base, option, str(tmp_path / "file")])
+    said = refused(capsys, command, [*flat(BASES[command]), option, str(tmp_path / "file")])
     assert "No space left" in said and [*tmp_path.iterdir()] == []
 
 
