@@ -20,7 +20,7 @@ from proofs.trusted.parameters import PAPER
 from tests.proofs.shell.processes import AT, QUICK, ROOT, arguments_of
 
 PACKAGES = {"benchmark", "formal", "report", "stress"}
-QUESTIONS = ["impact", "orbits", "period_doubling", "resonance", "single_impact"]
+QUESTIONS = ["impact", "orbits", "single_impact"]
 
 
 def main_of(name):
