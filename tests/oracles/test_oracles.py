@@ -33,6 +33,7 @@ pytestmark = pytest.mark.slow  # all certificates are derived
 OWN = (  # beyond the paper
     *(("explore", *at) for at in (("0.112", "-0.336"), ("0.237", "0.3"), ("0.5", "0.2"))),
     ("explore", "2", "-0.2"),
+    ("explore", "1/3", "-0.23"),
     ("rebounding", "0.5", "0.2"),
     ("rebounding", "1.8959", "-1.8502"),
 )
@@ -463,6 +464,11 @@ FALSE = {
         put("contraction", F(1)),
         put("contraction", F(1, 10**6)),
         put("beyond", lambda old: (old[0], old[0] + F(1, 10**4))),
+        _of("arc", offs("phase")),
+    ],
+    "SticksOnce": [
+        put("cells", lambda old: tuple(off(x) for x in old) or (off((F(1), F(2))),)),
+        _of("end", offs("cells")),
         _of("arc", offs("phase")),
     ],
     "StickingMotion": [

@@ -7,17 +7,8 @@ from itertools import pairwise
 import pytest
 
 from proofs.motion.system import System
-from proofs.search.portrait import (
-    FALLS,
-    FLIES,
-    RISES,
-    STICKS,
-    TOUCHES,
-    fates,
-    rebounding_fates,
-    rows,
-    stretches,
-)
+from proofs.search.orbits import FALLS, FLIES, RISES, STICKS, TOUCHES
+from proofs.search.portrait import fates, rebounding_fates, rows, stretches
 from tests.oracles.motion import Impact, flight
 
 F = Fraction
