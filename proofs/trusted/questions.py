@@ -9,7 +9,6 @@ from typing import NamedTuple
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.cycle import ATTRACTING, PeriodicOrbit
 from proofs.trusted.kernel.graph import Entropy
-from proofs.trusted.kernel.maps import Map
 from proofs.trusted.paper.beyond.attractors import AllStick, AtRest
 from proofs.trusted.paper.beyond.orbits import StableOrbit
 from proofs.trusted.paper.beyond.returning import ReturningMotion, StickingMotion
@@ -92,16 +91,12 @@ OF_MAPS = "orbits:N, stable:N (N from 1 to 60), horseshoe"
 def map_question(name: str, function: str) -> Question:
     """Return what is asked of a map under a name; ValueError where that is nothing.
 
-    A conclusion answers if it is about this function of a file, not about the paper's map, which
-    may have the same name. Nothing is refuted.
+    Conclusions about this function of a file answer, not the paper's map. Nothing is refuted.
     """
     kind, _, number = name.partition(":")
 
-    def is_asked_about(map_: Map) -> bool:
-        return map_.name == function and getattr(map_, "at", None) is None
-
     def is_orbit(found: Conclusion) -> bool:
-        if not isinstance(found, PeriodicOrbit) or not is_asked_about(found.function):
+        if not isinstance(found, PeriodicOrbit) or found.place or found.function.name != function:
             return False
         is_asked = kind == "orbits" or found.stability == ATTRACTING
         return is_asked and found.period == int(number)
@@ -109,7 +104,8 @@ def map_question(name: str, function: str) -> Question:
     def is_horseshoe(found: Conclusion) -> bool:
         if not isinstance(found, Entropy) or found.growth < 2:
             return False
-        return all(is_asked_about(cover.local.map) for cover in found.graph.covers)
+        maps = [cover.local.map for cover in found.graph.covers]
+        return all(map_.name == function and not hasattr(map_, "at") for map_ in maps)
 
     if name == "horseshoe":
         holds = "a compact invariant set of the map has positive topological entropy"
