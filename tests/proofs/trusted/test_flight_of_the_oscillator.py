@@ -105,5 +105,5 @@ def test_relations_say_about_which_oscillator_they_are():
     one, two = related(Fraction(0), Fraction("-0.2")), related(Fraction(3), Fraction("-0.2"))
     for conclusion in (one, graph(one, two)):
         assert "eta = 0.2121, nu = -0.2, epsilon = 0.01: N" in conclusion.sentence
-    with pytest.raises(Malformed, match="another map .* of the same name"):
+    with pytest.raises(Malformed, match="of the same name"):
         graph(one, related(Fraction(3), Fraction("-0.3")))
