@@ -19,17 +19,17 @@ from proofs.trusted.rules import RULES
 ROOT = Path(__file__).parents[1]
 GENERATED = ["docs/api.md", "docs/systems.md"]
 BUDGETS = {
-    "proofs": 55_730,
+    "proofs": 54_100,
     "proofs/trusted": 21_890,
-    "proofs/search, proofs/motion": 9_540,
+    "proofs/search, proofs/motion": 8_620,
     "proofs/shell": 1_760,
     "proofs/benchmark": 1_880,
     "proofs/stress": 1_350,
-    "tests": 51_200,
-    "words of the docs": 12_350,  # of those that are written by hand, the README with them
+    "tests": 45_600,
+    "words of the docs": 12_150,  # of those that are written by hand, the README with them
     "rules outside the kernel": 33,
     "loose modules": 9,  # of the package proofs
-    "tracked files": 1_070,
+    "tracked files": 1_055,
     "headline": 8_850,  # lines of the files that run to check reports/horseshoe.json
     "way of H2": 7_450,  # lines of the files that run to prove H2 and to check it
     "way of H2, files": 50,

@@ -173,18 +173,3 @@ def stable_orbit(view, rng):
     if len(slopes) == len(cells) and not inside(prod(slopes), view.contraction, 1e-9):
         told.append(f"the multiplier is about {float(prod(slopes)):.9g}")
     return told
-
-
-JUDGES = {
-    "AllStick": all_stick,
-    "AtRest": at_rest,
-    "Leaves": leaves,
-    "NeverSticks": never_sticks,
-    "OnlyTouches": only_touches,
-    "FlightsEnd": flights_end,
-    "ComesToRest": comes_to_rest,
-    "ReturningMotion": returning_motion,
-    "SticksOnce": sticks_once,
-    "StickingMotion": sticking_motion,
-    "StableOrbit": stable_orbit,
-}

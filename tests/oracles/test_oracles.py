@@ -9,7 +9,7 @@ import pytest
 
 from tests.once import once
 from tests.oracles.adapter import parameters, view
-from tests.oracles.judge import JUDGES, judge
+from tests.oracles.judge import judge, judge_of
 from tests.oracles.motion import TURN, ball
 from tests.oracles.plastic import between, lifted
 from tests.oracles.sources import (
@@ -69,10 +69,11 @@ def by_hand():
 
 
 def test_every_class_of_conclusions_has_an_oracle_and_is_proved_and_made_false():
-    assert classes() == set(JUDGES) == set(FALSE) == {one.kind for _, one in true_views()}
+    assert all(map(judge_of, classes()))
+    assert classes() == set(FALSE) == {one.kind for _, one in true_views()}
 
 
-@pytest.mark.parametrize("name", sorted(JUDGES))
+@pytest.mark.parametrize("name", sorted(classes()))
 def test_what_is_proved_is_accepted(name):
     told = {}
     for where, record in true_views():

@@ -68,6 +68,7 @@ def test_what_sticks_is_followed_from_the_separation(eta, nu, name):
     assert first.name == name and first.share > 0.9
 
 
+@pytest.mark.slow
 def test_soft_touches_are_no_stable_orbits():
     """Resonance: by R9 all motions tend to grazing ones; eta = 20 also repeats after one turn."""
     for eta in ("1", "20"):
