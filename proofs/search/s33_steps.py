@@ -14,9 +14,8 @@ from itertools import pairwise, product
 from typing import Any, TypeVar
 
 from intervals.errors import Undecided
-from proofs.motion.simulate import next_impact
+from proofs.motion.simulate import landing
 from proofs.motion.system import System
-from proofs.motion.witness import HORIZON
 from proofs.search.evidence import FAILED, concluded
 from proofs.search.s33_rectangles import Sets, image_phases, state_after
 from proofs.search.steps import Prover
@@ -262,10 +261,8 @@ def function_of(at: Place) -> dict[str, list[str]]:
 def turns_of(at: Place, box: Box) -> str:
     """Return about how many turns the next phases have passed, seen from the middle of a box."""
     eta, nu, epsilon, phase, gamma = (float(low + high) / 2 for low, high in (*at.sides, *box))
-    system = System(Fraction(eta), Fraction(nu))
-    speed = -system.side * (-eta * gamma - nu * math.cos(phase))
-    time, _ = next_impact(system, phase, epsilon * speed, float(HORIZON)) or (0.0, 0.0)
-    return str(math.floor((phase + time) / math.tau))
+    after = landing(System(Fraction(eta), Fraction(nu)), epsilon, phase, gamma)
+    return str(math.floor((after.phase if after else phase) / math.tau))
 
 
 def _is_smooth(at: Place, box: Box) -> bool:
