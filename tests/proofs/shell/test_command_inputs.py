@@ -1,13 +1,13 @@
-"""Bad input to the commands that answer a question: one line, status 2, nothing written."""
+"""Bad input to the commands: one line, status 2, nothing written."""
 
 import os
 import shlex
 from functools import partial
-from importlib import import_module
 from time import perf_counter
 
 import pytest
 
+from proofs.__main__ import main
 from proofs.commands import (
     atlas,
     bifurcation,
@@ -17,6 +17,7 @@ from proofs.commands import (
 )
 from proofs.commands.groups import GROUPS
 from proofs.search import periodic
+from proofs.shell.entry import guarded
 from proofs.shell.runner import run
 
 
@@ -280,16 +281,79 @@ def test_two_outputs_are_two_files(tmp_path, capsys, no_work, monkeypatch):
     assert [*tmp_path.iterdir()] == []
 
 
-@pytest.mark.parametrize(
-    ("module", "arguments", "name"),
-    [
-        ("commands.impact", ["--phi", "1.1", "--phi=1.3"], "--phi"),
-        ("commands.single_impact", ["--eta", "0.3", "--nu", "0.2", "--eta", "0.4"], "--eta"),
-        ("horseshoe", ["--left", "1.1", "1.15", "--left", "1.1", "1.14"], "--left"),
+# -- the other commands ----------------------------------------------------------------------------
+
+SIDES = "--eta 0.2115 0.2127 --nu -0.201 -0.199"
+LOGISTIC = "--map 'r*x*(1 - x)' --set r=3 --box x=0:1"
+CELLS = "--map 'r*x*(1 - x) + c' --box x=0:1 --range r 4.9 5.1"
+REFUSED = {  # arguments, and what the line says
+    "atlas": [
+        ("--eta 0.3 0.2 --nu -0.2 -0.1 --ask horseshoe", "eta: reversed or empty"),
+        ("--eta 0.2 0.2 --nu -0.2 -0.1 --ask horseshoe", "eta: reversed or empty"),
+        ("--eta 0 0.2 --nu -0.2 -0.1 --ask horseshoe", "eta must be positive"),
+        (SIDES, "go together"),
+        ("--epsilon 0.1", "go together"),
+        (f"{SIDES} --ask horseshoe --depth 41", "depth"),
+        (f"{SIDES} --ask horseshoe --jobs 0", "--jobs"),
+        (f"{SIDES} --ask horseshoe --executor ssh:somewhere", "dask:"),
+        ("", "there is no"),
+        (f"{SIDES} --ask chaos", "the question is one of attractor, horseshoe"),
+        (f"{SIDES} --ask entropy:1", "entropy:2 to entropy:50"),
+        (f"{SIDES} --ask horseshoe --epsilon 0.3", "plastic impacts alone"),
+        *(
+            (f"{SIDES} --ask orbits --epsilon {x}", "in [0, 1)")
+            for x in ("1", "0.3 0.2", "0 .1 .2")
+        ),
+        (f"{SIDES} --ask horseshoe --json file/atlas.json", "cannot write"),
+        *((f"{SIDES} --lines {more}", "") for more in ("--json -", "--cell 0.2122 -0.2")),
+        (f"{CELLS} --range c 0 0.01", ""),
+        (f"{CELLS} --range c 0 0.01 --eta 1 2", ""),
+        (f"{CELLS} --ask horseshoe", ""),
     ],
+    "benchmark": [(x, "") for x in ("--nonsense", "--quick --full", "circles", "--out file")],
+    "check": [(x, "") for x in ("", "--bogus", "--work x file")],
+    "circle": [("--left 1 1.1", "change nothing")],
+    "formal": [(x, "a certificate is expected") for x in ("", "file --arithmetic")],
+    "horseshoe": [("--left 1.1 1.15 --left 1.1 1.14", "--left is given 2 times")],
+    "impact": [("--phi 1.1 --phi=1.3", "--phi is given 2 times")],
+    "ledger": [("--only H99", "H99"), ("--digits 0", "digits")],
+    "persistence": [("--slopes 4 5", "change nothing")],
+    "resonance": [(f"--{name} 2", "") for name in ("eta", "nu")],
+    "single": [("--only P5 P1 --eta 0.5", "--eta would change nothing in P5 P1")],
+    "single_impact": [("--eta 0.3 --nu 0.2 --eta 0.4", "--eta is given 2 times")],
+    "soft": [("--eta 2", "change nothing")],
+    "stress": [
+        *((x, "") for x in ("--nonsense", "--cases 0", "--cases many", "--seed -1")),
+        *((x, "") for x in ("--json .", "--family circles", "--out file/absent")),
+    ],
+    "system": [
+        *(
+            (x, "")
+            for x in ("", "nowhere.toml", "--example none", "--map 2x", "--map x/2 --figure")
+        ),
+        *(
+            (f"--map x {more}", "")
+            for more in ("--effort 0", "--seconds soon", "--set r", "--example wall")
+        ),
+        *((f"--map x {more}", "") for more in ("--ask orbits:0", "--box x=1", "--box y=0:1")),
+        *((f"{LOGISTIC} --ask {x}", "") for x in ("branches", "branches:r=2", "folds:r=2:4")),
+        *((f"{LOGISTIC} --ask {x}:r=2:4,q=1:2", "") for x in ("branches", "flips")),
+    ],
+}
+
+
+@pytest.mark.every
+@pytest.mark.parametrize(
+    "command, arguments, why", [(name, *row) for name, rows in REFUSED.items() for row in rows]
 )
-def test_an_option_that_is_given_twice_is_no_last_word(module, arguments, name, capsys):
-    with pytest.raises(SystemExit) as left:
-        import_module(f"proofs.{module}").main(arguments)
-    assert left.value.code == 2
-    assert f"{name} is given 2 times" in capsys.readouterr().err
+def test_others_refuse_in_a_line_before_the_work(
+    command, arguments, why, tmp_path, capsys, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "file").touch()
+    began = perf_counter()
+    assert guarded("python -m proofs", lambda: main([command, *shlex.split(arguments)])) == 2
+    said = capsys.readouterr()
+    assert said.out == "" and said.err.count("\n") == 1 and why in said.err
+    assert perf_counter() - began < 5
+    assert [path for path in tmp_path.rglob("*") if path.is_file()] == [tmp_path / "file"]

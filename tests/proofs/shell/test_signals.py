@@ -56,6 +56,7 @@ def check_stop(name, folder, number, after, everyone=True):
     return True
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", COMMANDS)
 def test_an_interrupt_while_it_begins(name, tmp_path):
     """Before its own imports are done, at times."""
