@@ -52,7 +52,6 @@ def prove(
     if not too_fast(of, found, _SEARCHES) and of.epsilon is not None:
         within = partial(budget.attempt, prover.attempt)
         search_each(found, claims, _SEARCHES, tell, prover, budget, within=within)
-    found.steps = prover.steps
     return found
 
 
@@ -113,7 +112,6 @@ def _chattering(prover: ReboundProver, epsilon: Fraction) -> tuple[str, Conclusi
     system = prover.plain.system
     at = Place.restituting(system.eta, system.nu, epsilon)
     separation, arc = prove_arc(prover.plain)
-    prover.known[separation] = arc
     pushing, first = Pushing(arc.at, arc.phase[0]), around(arc, _AROUND)
     box, impacts = list(first), list[str]()
     while len(impacts) < _MOST_IMPACTS:

@@ -45,11 +45,10 @@ _ROOM = 40  # bits beyond those of a result
 
 @dataclass
 class ReboundProver:
-    """Collects steps about impacts with restitution, and the conclusions they reach."""
+    """Adds steps about impacts with restitution to those of the plastic map."""
 
     of: Parameters
     plain: Prover
-    known: dict[str, Conclusion] = field(default_factory=dict)
     _names: dict[object, str] = field(default_factory=dict)  # some of steps that were taken back
 
     @property
@@ -58,15 +57,16 @@ class ReboundProver:
         return self.plain.steps
 
     @property
+    def known(self) -> dict[str, Conclusion]:
+        """What they conclude."""
+        return self.plain.known
+
+    @property
     def velocities(self) -> Range:
         """The velocities of the statement's rectangles."""
         if self.of.velocities is None:
             raise Undecided("no range of velocities is given")
         return self.of.velocities
-
-    def all(self, kind: type[C], at: Place) -> list[tuple[str, C]]:
-        """Return the conclusions of a kind about these oscillators, with their names."""
-        return [(k, x) for k, x in self.known.items() if type(x) is kind and x.place == at]
 
     def get(self, name: str, kind: type[C]) -> C:
         """Return a conclusion by its name."""
@@ -78,11 +78,10 @@ class ReboundProver:
     @contextmanager
     def attempt(self) -> Iterator[None]:
         """Do something; nothing is recorded of it if it fails, and failures are Unproved."""
-        steps, known = dict(self.steps), dict(self.known)
         try:
-            yield
+            with self.plain.undone():
+                yield
         except FAILED as failure:
-            self.plain.steps, self.known = steps, known
             raise Unproved(str(failure)) from None
 
     # -- steps ---------------------------------------------------------------------------------
