@@ -137,7 +137,8 @@ def _enclose_orbit(
     domains = [Interval(*of.domains[j], precision=precision) for j in symbols]
     scales = [max(map(abs, of.domains[j])) / 10**digits for j in symbols]
     centres = [Interval.from_float(x, precision=precision) for x in starts]
-    boxes, before = list[Interval](), math.inf
+    boxes = list[Interval]()
+    before: Fraction | float = math.inf
     while True:
         ahead = [*centres[1:], centres[0]]
         defects = [of.defect(*each) for each in zip(symbols, centres, ahead, strict=True)]
