@@ -19,14 +19,14 @@ from proofs.trusted.rules import RULES
 ROOT = Path(__file__).parents[1]
 GENERATED = ["docs/api.md", "docs/systems.md"]
 BUDGETS = {
-    "proofs": 55_600,
-    "proofs/trusted": 21_800,
+    "proofs": 56_050,
+    "proofs/trusted": 22_100,
     "proofs/search, proofs/motion": 9_500,
     "proofs/shell": 1_760,
     "proofs/benchmark": 1_880,
     "proofs/stress": 1_350,
-    "tests": 51_200,
-    "words of the docs": 12_350,  # of those that are written by hand, the README with them
+    "tests": 51_500,
+    "words of the docs": 12_450,  # of those that are written by hand, the README with them
     "rules outside the kernel": 33,
     "loose modules": 9,  # of the package proofs
     "tracked files": 1_070,

@@ -9,6 +9,7 @@ from tests.oracles import (
     formulas,
     kernel,
     laps,
+    outcomes,
     plastic,
     restitution,
     sets,
@@ -31,6 +32,7 @@ JUDGES = {
         kernel,
         beyond,
         curves,
+        outcomes,
     )
     for name, judge in module.JUDGES.items()
 }
