@@ -69,7 +69,7 @@ RULES: Mapping[str, str] = MappingProxyType(
         "single-eta-windows": "paper.s4_single.windows.eta_windows",
         "single-nu-windows": "paper.s4_single.windows.nu_windows",
         "sticking-motion": "paper.beyond.returning.prove_sticking_motion",
-        "stable-orbit": "paper.beyond.attractors.prove_stable_orbit",
+        "stable-orbit": "paper.beyond.orbits.prove_stable_orbit",
         "grazing-curve": "paper.beyond.grazing.grazing_curve",
         "grazing-meets": "paper.beyond.meetings.meeting",
         "stable-singles": "paper.beyond.singles.stable_singles",

@@ -56,6 +56,3 @@ def _least(gap, near):
     times = [x.real for x in curve.deriv().roots() if abs(x.imag) < 1e-9]
     time = min(times, key=lambda t: abs(t - SHORT * (near + 1)))
     return curve(time), time
-
-
-JUDGES = {"NoImpact": no_impact, "Pressed": pressed, "Graze": graze}

@@ -14,7 +14,7 @@ from proofs.report.figures.sampled import graph
 from proofs.report.figures.style import BLUE, GREY, ORANGE, RED, dots, proved_boxes, sheet
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Phases, Range
-from proofs.trusted.paper.beyond.attractors import StableOrbit
+from proofs.trusted.paper.beyond.orbits import StableOrbit
 from proofs.trusted.paper.beyond.returning import StickingMotion
 from proofs.trusted.paper.s34_circle.entropy import EntropyBound
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
