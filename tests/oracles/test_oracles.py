@@ -426,6 +426,13 @@ FALSE = {
     ],
     "UniqueZero": [put("box", lambda old: tuple((b + 10, b + 11) for _, b in old))],
     "Image": [put("bounds", lambda old: tuple((b + 10, b + 11) for _, b in old))],
+    "NoImpact": [put("box", lambda old: (*old[:-1], (F(-2), F(-2))))],
+    "Pressed": [put("box", lambda old: (*old[:-1], (F(2), F(2))))],
+    "Graze": [
+        put("rises", lambda old: not old),
+        offs("time"),
+        lambda record: offs("box", record.axis)(record),
+    ],
     "PeriodicOrbit": [
         put("box", lambda old: tuple((b + 10, b + 11) for _, b in old)),
         put("period", lambda old: 2 * old),
