@@ -20,6 +20,7 @@ from proofs.trusted.atlas import Region
 from proofs.trusted.certificate import LEDGER, MANIFEST, MAX_BYTES
 from proofs.trusted.paper import GROUPS
 from tests.proofs.trusted.edits import at, put, walk
+from tests.proofs.trusted.kernel.hostile import HOSTILE, source_of
 from tests.proofs.trusted.kernel.lemma_examples import EXAMPLES, text
 
 ROOT = Path(__file__).parents[3]
@@ -189,7 +190,13 @@ def shapes(rng):
     return f"shape: {name}", held
 
 
-FILES = copies, repeated, finer, digits, swollen, shapes
+def busy(rng):
+    """Formulas, trees and maps in which work could hide."""
+    name = rng.choice(sorted(HOSTILE))
+    return f"busy: {name}", source_of(name)
+
+
+FILES = copies, repeated, finer, digits, swollen, shapes, busy
 
 
 def atlases(rng):
