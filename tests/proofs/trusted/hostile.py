@@ -34,7 +34,8 @@ MOST = 9_900  # entries of a list
 @cache
 def sources():
     """Texts of certificates that are accepted, by name."""
-    paths = [*ROOT.glob("reports/*.json"), *ROOT.glob("reports/atlas/*/cell-*.json")]
+    kinds = "*.json", "atlas/*/cell-*.json", "systems/*/*.json"
+    paths = [path for kind in kinds for path in ROOT.glob(f"reports/{kind}")]
     found = {str(path.relative_to(ROOT)): path.read_text() for path in sorted(paths)}
     found |= {f"lemma {name}": text(name) for name in EXAMPLES}
     return {name: held for name, held in found.items() if '"steps"' in held}

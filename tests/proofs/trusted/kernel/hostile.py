@@ -243,6 +243,17 @@ def tower_of_maps(count=1500):
     return document([("s", "image", box)], {"F0": {"variables": ["x"], "values": ["x"]}} | maps)
 
 
+def wide_flow():
+    """Eight states for a long time, with derivatives by as many variables."""
+    states, starts = ([f"{name}{k}" for k in range(8)] for name in "xw")
+    sums = [" + ".join(f"{j + 1}/100*{x}*{y}" for j, y in enumerate(states)) for x in states]
+    flow = {"variables": starts, "time": "t", "state": states, "start": starts, "values": ["x0"]}
+    rates = {"field": [f"{each} - {x}" for each, x in zip(sums, states, strict=True)]}
+    box = {"box": [["1/10", "11/100"]] * 8, "tree": None, "bounds": [["0", "1"]]}
+    image = ("s", "image", {"function": "P", **box})
+    return document([image], {"P": flow | rates | {"end": {"time": "1000"}}})
+
+
 def deep_json():
     return "[" * 2_000_000
 
