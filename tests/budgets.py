@@ -19,19 +19,19 @@ from proofs.trusted.rules import RULES
 ROOT = Path(__file__).parents[1]
 GENERATED = ["docs/api.md", "docs/systems.md"]
 BUDGETS = {
-    "proofs": 55_600,
-    "proofs/trusted": 21_800,
+    "proofs": 55_800,
+    "proofs/trusted": 22_100,
     "proofs/search, proofs/motion": 9_500,
     "proofs/shell": 1_760,
     "proofs/benchmark": 1_880,
     "proofs/stress": 1_350,
-    "tests": 51_200,
+    "tests": 51_500,
     "words of the docs": 12_350,  # of those that are written by hand, the README with them
-    "rules outside the kernel": 33,
+    "rules outside the kernel": 28,
     "loose modules": 9,  # of the package proofs
-    "tracked files": 1_070,
+    "tracked files": 1_075,
     "headline": 8_850,  # lines of the files that run to check reports/horseshoe.json
-    "way of H2": 7_450,  # lines of the files that run to prove H2 and to check it
+    "way of H2": 7_600,  # lines of the files that run to prove H2 and to check it
     "way of H2, files": 50,
 }
 

@@ -16,8 +16,8 @@ from typing import NamedTuple
 from proofs.report.findings import Findings
 from proofs.report.typeset import markdown
 from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.laps import SlopeRange
 from proofs.trusted.numbers import between
-from proofs.trusted.slopes import SlopeRange
 from proofs.trusted.verdicts import told
 
 _LINE = re.compile(r"@(\S+) (.+)")

@@ -28,10 +28,10 @@ from proofs.search.shifts import full_shifts, pieces
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.laps import SlopeRange
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.beyond.returning import StickingMotion
 from proofs.trusted.parameters import Parameters
-from proofs.trusted.slopes import SlopeRange
 
 _TURNS, _DEPTH = 150, 1  # of the flights, and of the tower of states, in covering graphs
 _LONGEST = 60  # period

@@ -9,6 +9,8 @@ from tests.oracles import (
     formulas,
     kernel,
     laps,
+    lines,
+    planar,
     plastic,
     restitution,
     sets,
@@ -38,7 +40,8 @@ JUDGES = {
 
 def judge(record, rng):
     """Complaints about a record that `adapter.view` made."""
-    return JUDGES[record.kind](record, rng)
+    own = planar.is_of_a_file(getattr(record, "base", record)) and lines.JUDGES.get(record.kind)
+    return (own or JUDGES[record.kind])(record, rng)
 
 
 def oracle(conclusion, rng, of=None):

@@ -3,11 +3,36 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from operator import attrgetter
+from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
+    from proofs.trusted.kernel.arithmetic import Enclosure
     from proofs.trusted.numbers import Range
     from proofs.trusted.parameters import Place
+
+
+class Subject(Protocol):
+    """A map, as conclusions speak of it; if it is the oscillator's, `at` says which.
+
+    periods: of those variables that are angles, by their places.
+    """
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def definition(self) -> str: ...
+    def periods(self, bits: int) -> dict[int, Enclosure]: ...
+
+
+def given(subject: Subject) -> str:
+    """Begin a sentence about a map; what the oscillator's is, the text before says."""
+    return "" if getattr(subject, "at", None) else f"for {subject.definition}: "
+
+
+def named(subject: Subject) -> str:
+    """Return a map's name, between backquotes if a file gives it."""
+    return subject.name if getattr(subject, "at", None) else f"`{subject.name}`"
 
 
 class About:
@@ -17,12 +42,16 @@ class About:
         self.part = part
 
     def __get__(self, conclusion: Conclusion, _: type) -> Place:
-        """Return them; TypeError, not AttributeError, which `Conclusion.place` takes for none."""
+        """Return them; TypeError for a wrong name, not AttributeError, by which
+        `Conclusion.place` knows that there are none.
+        """
         try:
-            place: Place = getattr(conclusion, self.part).at
+            part: Conclusion = getattr(conclusion, self.part)
         except AttributeError:
-            raise TypeError(f"no oscillators of the part {self.part!r}") from None
-        return place
+            raise TypeError(f"no part {self.part!r}") from None
+        if part.place is None:
+            raise AttributeError(f"the part {self.part!r} is about no oscillators")
+        return part.place
 
 
 class Conclusion:
@@ -63,3 +92,15 @@ class Conclusion:
     def quantities(self) -> Mapping[str, Range]:
         """Return the enclosures that it reports, by name."""
         return {}
+
+
+class AboutMap(Conclusion):
+    """What is concluded about a map; `at` is the map's, AttributeError if it has none."""
+
+    function: Subject
+
+    @property
+    def at(self) -> Place:
+        """The oscillators."""
+        place: Place = attrgetter("at")(self.function)
+        return place

@@ -6,12 +6,7 @@ from dataclasses import dataclass
 
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.paper.beyond.attractors import (
-    AtRest,
-    NeverSticks,
-    OnlyTouches,
-    first_proved,
-)
+from proofs.trusted.paper.beyond.attractors import AtRest, NeverSticks, OnlyTouches, first_proved
 from proofs.trusted.paper.beyond.returning import StickingMotion
 from proofs.trusted.paper.s34_circle.circle import basin, most
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts

@@ -9,6 +9,7 @@ from proofs.methods.symbolic import SymbolicLemmas
 from proofs.trusted.certificate import render
 from proofs.trusted.equations import AT_LAUNCH, clock, gap, launch, launch_acceleration, slope
 from proofs.trusted.kernel.values import Equal, Series
+from tests.proofs.trusted.kernel.lines import Lines
 from tests.proofs.trusted.kernel.systems import BALL, RATTLE, RATTLE_BACK
 
 LOGISTIC = (["x"], ["5*x*(1 - x)"])
@@ -270,6 +271,7 @@ def rectangles():
 
 
 EXAMPLES = {
+    "lines": Lines,
     "rectangles": rectangles,
     "ball": ball,
     "rattle": rattle,

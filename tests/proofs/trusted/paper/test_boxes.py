@@ -27,10 +27,10 @@ from proofs.trusted.certificate import (
 from proofs.trusted.flights import FirstImpact, Motion, first_impact
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.coverings import EntropyBound
 from proofs.trusted.kernel.head import read_function
 from proofs.trusted.paper.beyond.attractors import AllStick, AtRest, Leaves, NeverSticks
 from proofs.trusted.paper.beyond.returning import ReturningMotion, StickingMotion
-from proofs.trusted.paper.s34_circle.entropy import EntropyBound
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.rules import find_rule
 from proofs.trusted.slopes import avoids

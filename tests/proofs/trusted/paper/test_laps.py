@@ -20,10 +20,11 @@ from proofs.search.evidence import Evidence
 from proofs.search.s34_whole import prove, prove_grazes
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import Malformed
+from proofs.trusted.flights import PlasticMap
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.coverings import EntropyBound, Weighted
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s34_circle.cycles import Coding, Cycles, Outer
-from proofs.trusted.paper.s34_circle.entropy import EntropyBound, Weighted
 from proofs.trusted.paper.s34_circle.expansion import (
     Expansion,
     beside,
@@ -39,7 +40,7 @@ from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
 from tests.oracles.judge import oracle
 from tests.oracles.motion import TURN, Impact, next_impact
-from tests.proofs.trusted.paper.steps import add, apply, derive, edited
+from tests.proofs.trusted.paper.steps import add, apply, derive, edited, moved_to
 
 OF = replace(PAPER, eta=F("0.21"))
 
@@ -581,13 +582,15 @@ def test_a_flight_from_the_arc_that_does_not_return_is_no_end(known):
 def test_bounds_of_two_oscillators_are_no_range(known):
     (found,) = only(EntropyRange, known)
     with pytest.raises(Unproved, match="two bounds"):
-        replace(found, lower=replace(found.lower, at=PAPER.place))
+        replace(found, lower=moved_to(found.lower, PAPER.place))
     with pytest.raises(Unproved, match="two bounds"):
         replace(found, growth=found.lower.growth - 1)
     with pytest.raises(Unproved, match="other branches"):
         replace(
             found,
-            lower=EntropyBound(found.at, (replace(found.lower.branches[0], turn=7),), 1, F(2)),
+            lower=EntropyBound(
+                PlasticMap(found.at), (replace(found.lower.branches[0], turn=7),), 1, F(2)
+            ),
         )
 
 

@@ -10,14 +10,15 @@ from proofs.search import s32_dimension as dimension
 from proofs.shell import groups
 from proofs.trusted.certificate import render
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Phases, within
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s32_sets.repeller import Repeller
 from proofs.trusted.paper.s34_circle.thin import ThinShift
-from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import check
+from tests.proofs.trusted.paper.steps import moved_to
 
 DIGITS = 8
 pytestmark = pytest.mark.slow  # proofs of both sets
@@ -64,7 +65,7 @@ def test_nothing_is_decided_without(kind):
     found = [each for each in conclusions() if not isinstance(each, kind)]
     assert decide(found).verdict is Verdict.UNDECIDED
     elsewhere = replace(PAPER, nu=Fraction("-0.21")).place
-    moved = [replace(x, at=elsewhere) if isinstance(x, kind) else x for x in conclusions()]
+    moved = [moved_to(x, elsewhere) if isinstance(x, kind) else x for x in conclusions()]
     assert decide(moved).verdict is Verdict.UNDECIDED
 
 
