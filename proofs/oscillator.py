@@ -33,7 +33,7 @@ from proofs.search.s33_steps import ReboundProver
 from proofs.search.steps import Prover
 from proofs.shell import groups
 from proofs.theorem import Theorem
-from proofs.trusted.certificate import render
+from proofs.trusted.files import render
 from proofs.trusted.flights import LATEST
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.horseshoe import Horseshoe

@@ -30,8 +30,8 @@ BUDGETS = {
     "rules outside the kernel": 28,
     "loose modules": 9,  # of the package proofs
     "tracked files": 1_075,
-    "headline": 8_850,  # lines of the files that run to check reports/horseshoe.json
-    "way of H2": 7_600,  # lines of the files that run to prove H2 and to check it
+    "headline": 8_600,  # lines of the files that run to check reports/horseshoe.json
+    "way of H2": 7_400,  # lines of the files that run to prove H2 and to check it
     "way of H2, files": 50,
 }
 

@@ -22,7 +22,7 @@ from proofs.search.s31_horseshoe import prove
 from proofs.search.shifts import pairs, pieces
 from proofs.search.steps import Prover
 from proofs.trusted.flights import FirstImpact
-from proofs.trusted.kernel.laps import image_arc
+from proofs.trusted.kernel.images import image_arc
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s31_horseshoe import horseshoes
 from proofs.trusted.parameters import Parameters

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from operator import attrgetter
 from typing import TYPE_CHECKING, Protocol
+
+from proofs.trusted.kernel.arithmetic import Unproved
 
 if TYPE_CHECKING:
     from proofs.trusted.kernel.arithmetic import Enclosure
@@ -42,16 +43,14 @@ class About:
         self.part = part
 
     def __get__(self, conclusion: Conclusion, _: type) -> Place:
-        """Return them; TypeError for a wrong name, not AttributeError, by which
-        `Conclusion.place` knows that there are none.
+        """Return them; TypeError, not AttributeError, which `Conclusion.place` takes for none.
+
+        Unproved where the part is about another map.
         """
-        try:
-            part: Conclusion = getattr(conclusion, self.part)
-        except AttributeError:
-            raise TypeError(f"no part {self.part!r}") from None
-        if part.place is None:
-            raise AttributeError(f"the part {self.part!r} is about no oscillators")
-        return part.place
+        part: Conclusion | None = getattr(conclusion, self.part, None)
+        if part is None or (part.place is None and not part.is_foreign):
+            raise TypeError(f"no oscillators of the part {self.part!r}")
+        return place_of(part)
 
 
 class Conclusion:
@@ -67,6 +66,11 @@ class Conclusion:
         """The oscillators that it is about, its own or its map's `at`; None if there are none."""
         place: Place | None = getattr(self, "at", None)
         return place or getattr(getattr(self, "function", None), "at", None)
+
+    @property
+    def is_foreign(self) -> bool:
+        """Whether it is about a map, and that is not the oscillator's."""
+        return self.place is None and hasattr(getattr(self, "function", None), "definition")
 
     @property
     def kind(self) -> str:
@@ -95,12 +99,24 @@ class Conclusion:
 
 
 class AboutMap(Conclusion):
-    """What is concluded about a map; `at` is the map's, AttributeError if it has none."""
+    """What is concluded about a map."""
 
     function: Subject
 
     @property
-    def at(self) -> Place:
-        """The oscillators."""
-        place: Place = attrgetter("at")(self.function)
+    def place(self) -> Place | None:
+        """The map's oscillators, if it is theirs."""
+        place: Place | None = getattr(self.function, "at", None)
         return place
+
+    @property
+    def at(self) -> Place:
+        """The same; Unproved where it is another map."""
+        return place_of(self)
+
+
+def place_of(conclusion: Conclusion) -> Place:
+    """Return the oscillators that a conclusion is about; Unproved where it is about another map."""
+    if conclusion.place is None:
+        raise Unproved("a map that is not the oscillator's")
+    return conclusion.place

@@ -10,9 +10,10 @@ from itertools import pairwise
 from typing import NamedTuple, Self
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.kernel.arithmetic import Unproved, log
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import AboutMap, Subject, given, named
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.elementary import log
 from proofs.trusted.kernel.laps import Lap
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range, floor_text, hull, show, show_range, within

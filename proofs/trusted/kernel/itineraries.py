@@ -15,6 +15,7 @@ from proofs.trusted.kernel.laps import SlopeRange, point_of
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Range, between, show, within
+from proofs.trusted.parameters import Place
 
 _LONGEST = 10
 _SPOTS = ("below I0", "in I0", "between I0 and I1", "in I1", "above I1")
@@ -42,6 +43,16 @@ class Itinerary(Conclusion):
     orbit: tuple[Range, ...]
 
     at = About("base")
+
+    @property
+    def place(self) -> Place | None:
+        """The oscillators, if it is about such."""
+        return self.base.place
+
+    @property
+    def is_foreign(self) -> bool:
+        """Whether it is about another map."""
+        return self.base.is_foreign
 
     def __post_init__(self) -> None:
         """Raise Unproved unless the orbit is in the sets, but for its last point."""

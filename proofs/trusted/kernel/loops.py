@@ -12,13 +12,8 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import AboutMap, Subject, given, named
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.laps import (
-    SlopeRange,
-    image_range,
-    inside,
-    subject_of,
-    turn_of,
-)
+from proofs.trusted.kernel.images import image_range, inside
+from proofs.trusted.kernel.laps import SlopeRange, subject_of, turn_of
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.kernel.staying import read_part
 from proofs.trusted.numbers import Range, ceil_text, show_range

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.kernel.arithmetic import Unproved, exp, log
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.elementary import exp, log
 from proofs.trusted.numbers import Range, between, bits_for, ceil_text, floor_text, show
 
 _MOST = 100  # ratios

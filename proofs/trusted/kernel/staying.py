@@ -9,18 +9,12 @@ from functools import cached_property
 from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.kernel.arithmetic import Unproved, log
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import AboutMap, Subject, given, named
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.laps import (
-    Gap,
-    ImageArc,
-    SlopeRange,
-    image_arc,
-    interval_of,
-    signed,
-    subject_of,
-)
+from proofs.trusted.kernel.elementary import log
+from proofs.trusted.kernel.images import ImageArc, image_arc
+from proofs.trusted.kernel.laps import Gap, SlopeRange, interval_of, signed, subject_of
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.kernel.shifts import closed_paths, irreducible, log_of, spectral_radius
 from proofs.trusted.numbers import (
@@ -267,7 +261,7 @@ def staying_set(
     path: itineraries are a bijection to the paths. The cells are apart and f is continuous on them,
     so it is continuous; paths are compact: it is a homeomorphism, and turns f into the shift. One
     path alone is a periodic orbit, repelling as |f'| > 1. 3. The shift on the paths of other such
-    graphs is as said, see `Subshift.chaotic`; its entropy is the log of the spectral radius (Lind
+    graphs is as said, see `is_chaotic`; its entropy is the log of the spectral radius (Lind
     and Marcus 1995, theorem 4.3.1), and closed paths are its periodic points. 4. Where f increases
     and images contain all of an interval, the order of phases is the lexicographic order of
     sequences. So, on three symbols, f^n(phi) <= p for all n if and only if no sequence moved on

@@ -7,7 +7,8 @@ from contextlib import suppress
 from fractions import Fraction
 
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.laps import ImageArc, SlopeRange, image_arc, signed
+from proofs.trusted.kernel.images import ImageArc, image_arc
+from proofs.trusted.kernel.laps import SlopeRange, signed
 from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Range, ceil_text, within
 from proofs.trusted.parameters import Parameters

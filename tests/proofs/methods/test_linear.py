@@ -13,7 +13,8 @@ import pytest
 
 from intervals import Undecided
 from proofs.methods.symbolic import SymbolicLemmas
-from proofs.trusted.certificate import Malformed, render
+from proofs.trusted.certificate import Malformed
+from proofs.trusted.files import render
 from proofs.trusted.verify import Rejected, check
 
 MODULUS = "sqrt(x**2)"

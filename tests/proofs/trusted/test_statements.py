@@ -7,7 +7,8 @@ import pytest
 
 from proofs.trusted.flights import PlasticMap
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.laps import ImageArc, SlopeRange, image_arc
+from proofs.trusted.kernel.images import ImageArc, image_arc
+from proofs.trusted.kernel.laps import SlopeRange
 from proofs.trusted.kernel.moran import MoranRoot
 from proofs.trusted.kernel.staying import staying_set
 from proofs.trusted.numbers import (

@@ -12,7 +12,8 @@ from proofs.trusted.flights import PlasticMap
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.laps import SlopeRange, image_range, inside
+from proofs.trusted.kernel.images import image_range, inside
+from proofs.trusted.kernel.laps import SlopeRange
 from proofs.trusted.kernel.loops import MOST_CELLS, led
 from proofs.trusted.kernel.staying import read_part
 from proofs.trusted.numbers import (

@@ -13,10 +13,11 @@ from functools import cached_property
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.kernel.itineraries import Itinerary
-from proofs.trusted.kernel.shifts import Subshift, closed_paths, log_of
+from proofs.trusted.kernel.shifts import closed_paths, log_of
 from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Phases, Range, show_range, within
 from proofs.trusted.paper.s31_horseshoe import horseshoes
+from proofs.trusted.paper.s32_sets.subshift import Subshift
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 

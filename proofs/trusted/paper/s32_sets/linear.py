@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
-from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, exp, log
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.elementary import exp, log
 from proofs.trusted.kernel.moran import MoranRoot
 from proofs.trusted.numbers import Range, bits_for, show, show_range
 from proofs.trusted.paper.s32_sets.moran import NoGap

@@ -9,10 +9,18 @@ import pytest
 
 from proofs.trusted.certificate import Malformed, Reader
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.conclusion import AboutMap
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.itineraries import Itinerary
 from proofs.trusted.kernel.maps import read_map
+from proofs.trusted.kernel.moran import MoranRoot
+from proofs.trusted.paper import find
+from proofs.trusted.parameters import PAPER
 from proofs.trusted.rules import find_rule
+from proofs.trusted.verdicts import Found, Verdict
+from proofs.trusted.verify import premises
 from tests.proofs.trusted.edits import at
+from tests.proofs.trusted.kernel.lemma_examples import text
 from tests.proofs.trusted.kernel.lines import CLAIMS, FUNCTIONS, SHOE, STEPS
 from tests.proofs.trusted.kernel.test_flight import BARRED, barred
 
@@ -110,6 +118,26 @@ def test_lies_are_refused(name, path, value, reason):
     at(steps[name], path[:-1])[path[-1]] = value
     with pytest.raises((Unproved, Malformed), match=reason):
         derived(steps)
+
+
+def test_what_is_about_another_map_decides_no_claim():
+    """In a file with the paper's numbers and a function of its own."""
+    known = [each for each in derived(STEPS).values() if not isinstance(each, MoranRoot)]
+    asked = Found(PAPER, known)
+    assert known and not asked.here and not asked.everywhere
+    foreign = [each for each in known if isinstance(each, AboutMap | Itinerary)]
+    assert len(foreign) == len(known)
+    for each in foreign:
+        assert each.place is None and each.is_foreign
+        with pytest.raises(Unproved, match="not the oscillator's"):
+            _ = each.at
+
+
+def test_a_stable_cycle_of_another_map_is_no_motion_with_impacts():
+    known = premises(text("rectangles")).known.values()
+    assert {"StableCycle", "Horseshoe", "Rectangle"} <= {each.kind for each in known}
+    for claim in ("X6", "X7", "G7"):
+        assert find(claim).decide(PAPER, [*known]).verdict is Verdict.UNDECIDED
 
 
 @pytest.mark.slow

@@ -16,7 +16,8 @@ from proofs.trusted import oscillator
 from proofs.trusted.flights import PlasticMap
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.horseshoe import Horseshoe
-from proofs.trusted.kernel.laps import ImageArc, SlopeRange, image_arc, image_range, inside
+from proofs.trusted.kernel.images import ImageArc, image_arc, image_range, inside
+from proofs.trusted.kernel.laps import SlopeRange
 from proofs.trusted.kernel.loops import StableOrbit, stable_orbit
 from proofs.trusted.kernel.stable import StableCycle
 from proofs.trusted.kernel.staying import staying_set

@@ -16,14 +16,7 @@ from proofs.motion.many import next_impacts
 from proofs.plane.flights import Flights
 from proofs.plane.horseshoe import propose
 from proofs.plane.settling import settles, stays_stable, sticks
-from proofs.trusted.certificate import (
-    FIELDS,
-    Malformed,
-    Reader,
-    parameters_from_json,
-    parse,
-    texts,
-)
+from proofs.trusted.certificate import FIELDS, Malformed, Reader, parameters_from_json, parse, texts
 from proofs.trusted.flights import FirstImpact, Motion, first_impact
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context

@@ -20,7 +20,8 @@ from proofs.search.evidence import Evidence
 from proofs.search.s34_chaos import prove, prove_entropy
 from proofs.search.steps import Prover
 from proofs.shell.groups import certificate, decide, produce
-from proofs.trusted.certificate import Malformed, render
+from proofs.trusted.certificate import Malformed
+from proofs.trusted.files import render
 from proofs.trusted.flights import Motion, PlasticMap
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.coverings import EntropyBound

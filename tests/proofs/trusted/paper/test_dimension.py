@@ -8,7 +8,7 @@ import pytest
 
 from proofs.search import s32_dimension as dimension
 from proofs.shell import groups
-from proofs.trusted.certificate import render
+from proofs.trusted.files import render
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.itineraries import Itinerary
 from proofs.trusted.kernel.moran import MoranRoot

@@ -14,7 +14,8 @@ from mpmath import mp, mpf
 
 from proofs.search.s2_foundations import prove
 from proofs.shell.groups import produce
-from proofs.trusted.certificate import Malformed, Reader, render
+from proofs.trusted.certificate import Malformed, Reader
+from proofs.trusted.files import render
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.values import equal
 from proofs.trusted.kernel.values import value as bounds_of

@@ -10,7 +10,8 @@ import pytest
 
 from proofs.search.s32_sets import prove
 from proofs.shell.groups import produce, wanted
-from proofs.trusted.certificate import Malformed, Reader, render
+from proofs.trusted.certificate import Malformed, Reader
+from proofs.trusted.files import render
 from proofs.trusted.flights import PlasticMap
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context

@@ -12,7 +12,8 @@ import pytest
 from mpmath import mp, mpf
 
 from proofs.shell.groups import produce
-from proofs.trusted.certificate import Malformed, render
+from proofs.trusted.certificate import Malformed
+from proofs.trusted.files import render
 from proofs.trusted.kernel.meter import Exhausted
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verify import Rejected, check

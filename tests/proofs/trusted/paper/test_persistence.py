@@ -18,7 +18,8 @@ from proofs.report.figures import restitution
 from proofs.search.evidence import Evidence
 from proofs.search.s34_persistence import prove
 from proofs.shell.groups import certificate, decide
-from proofs.trusted.certificate import SCHEMA, Malformed, parameters_to_json, render
+from proofs.trusted.certificate import SCHEMA, Malformed
+from proofs.trusted.files import parameters_to_json, render
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.stable import StableCycle
 from proofs.trusted.numbers import Phase

@@ -10,7 +10,8 @@ from mpmath import mp, mpf
 
 from proofs.search.s6_resonance import prove
 from proofs.shell import groups
-from proofs.trusted.certificate import Malformed, Reader, render
+from proofs.trusted.certificate import Malformed, Reader
+from proofs.trusted.files import render
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.solutions import Expressions

@@ -10,7 +10,8 @@ import pytest
 from proofs.search.derivations import Steps
 from proofs.search.s5_soft import prove
 from proofs.shell import groups
-from proofs.trusted.certificate import Reader, render
+from proofs.trusted.certificate import Reader
+from proofs.trusted.files import render
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.formulas import read_formulas

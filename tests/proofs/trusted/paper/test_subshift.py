@@ -7,7 +7,8 @@ import pytest
 
 from proofs.trusted.kernel import shifts
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.shifts import Subshift, closed_paths, words
+from proofs.trusted.kernel.shifts import closed_paths
+from proofs.trusted.paper.s32_sets.subshift import Subshift, words
 
 
 def without(*factors):
