@@ -133,14 +133,17 @@ class Map:
         """
         from proofs.methods.shifts import Candidates, find_horseshoe
 
-        file, reason = self._derivation(), Undecided("nothing was looked at")
+        reason = Undecided("nothing was looked at")
         saddles: list[Any] = []
         for power in range(1, longest + 1):
             for cycle in self._cycles(power, box):
                 saddles += list(cycle.points) if cycle.is_saddle else []
-            candidates = Candidates(saddles, self.region(box), power, self._share)
+            later = self._return(power)
+            file = self._derivation(**later)
+            name, iterate = (next(iter(later)), 1) if later else (self.function, power)
+            candidates = Candidates(saddles, self.region(box), iterate, self._share)
             try:
-                return _theorem(file, find_horseshoe(file, self.function, candidates))
+                return _theorem(file, find_horseshoe(file, name, candidates))
             except Undecided as error:
                 reason = error
         raise reason
@@ -207,10 +210,21 @@ class Map:
 
         return Sampled(self._kernel)
 
-    def _derivation(self) -> Any:
+    def _derivation(self, **others: Any) -> Any:
         from proofs.methods.derivation import Derivation
 
-        return Derivation(self.functions)
+        return Derivation({**self.functions, **others})
+
+    def _return(self, power: int) -> dict[str, Any]:
+        """Return the map to a later return, by its name, if the map is a flow to a section.
+
+        Along a solution a set keeps its shape; an iterate would begin anew from a box around it.
+        """
+        function = self.functions[self.function]
+        end, name = function.get("end", {}), f"{self.function}{power}"
+        if power == 1 or "section" not in end or name in self.functions:
+            return {}
+        return {name: {**function, "end": {**end, "count": str(power * int(end["count"]))}}}
 
     def _proved(self, cycles: Sequence[Any], otherwise: str) -> Theorem:
         """Return the theorem about those of some orbits that are proved."""

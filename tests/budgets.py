@@ -19,17 +19,17 @@ from proofs.trusted.rules import RULES
 ROOT = Path(__file__).parents[1]
 GENERATED = ["docs/api.md", "docs/systems.md"]
 BUDGETS = {
-    "proofs": 55_800,
-    "proofs/trusted": 22_100,
-    "proofs/search, proofs/motion": 9_500,
+    "proofs": 54_400,
+    "proofs/trusted": 22_240,
+    "proofs/search, proofs/motion": 8_620,
     "proofs/shell": 1_760,
     "proofs/benchmark": 1_880,
     "proofs/stress": 1_350,
-    "tests": 51_500,
-    "words of the docs": 12_350,  # of those that are written by hand, the README with them
+    "tests": 45_950,
+    "words of the docs": 12_150,  # of those that are written by hand, the README with them
     "rules outside the kernel": 28,
     "loose modules": 9,  # of the package proofs
-    "tracked files": 1_075,
+    "tracked files": 1_060,
     "headline": 8_600,  # lines of the files that run to check reports/horseshoe.json
     "way of H2": 7_400,  # lines of the files that run to prove H2 and to check it
     "way of H2, files": 50,

@@ -60,12 +60,11 @@ def test_the_tools_forget_nothing_in_the_tree():
             assert "/tmp/" not in path.read_text() and "/home/" not in path.read_text(), path
 
 
-def collected(marks, name=""):
-    """The names of the cases of a file that such a run takes."""
+def collected(marks, place):
+    """The names of the cases of a file, or of one of its tests, that such a run takes."""
     command = [sys.executable, "-m", "pytest", "--collect-only", "-n", "0", "-m", marks]
-    path = "tests/proofs/trusted/paper/test_circle.py"
     done = subprocess.run(
-        [*command, f"{path}::{name}".removesuffix("::")],
+        [*command, f"tests/proofs/trusted/{place}"],
         capture_output=True,
         text=True,
         cwd=ROOT,
@@ -77,10 +76,12 @@ def collected(marks, name=""):
 @pytest.mark.slow
 def test_what_is_long_is_no_part_of_the_quick_run_and_cases_between_are_none():
     """`-m 'not slow'` takes the place of the usual `-m 'not long'`."""
-    assert collected("long") and not collected("long and not slow")
+    file = "kernel/test_flight.py"
+    assert collected("long", file) and not collected("long and not slow", file)
     name = "test_two_basins_of_a_quadratic_map"
-    assert collected("not slow", name) == [f"{name}[0]", f"{name}[2]"]
-    assert collected("not long", name) == [f"{name}[{seed}]" for seed in range(3)]
+    place = f"paper/test_circle.py::{name}"
+    assert collected("not slow", place) == [f"{name}[0]", f"{name}[2]"]
+    assert collected("not long", place) == [f"{name}[{seed}]" for seed in range(3)]
 
 
 @pytest.mark.parametrize("module", ["proofs", "proofs.horseshoe", "proofs.check"])

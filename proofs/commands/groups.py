@@ -1,7 +1,7 @@
 """The commands that prove a group of claims: `python -m proofs NAME`, one row for each.
 
 A row is the text of `--help`, the numbers that what is proved depends on, and what one of them has
-more than others. `resonance` has a module of its own as well, for its map.
+more than others.
 """
 
 from __future__ import annotations
@@ -141,15 +141,7 @@ orbits in figures 7a and 7b are enclosed with the package `intervals`.""",
     Group(
         "resonance",
         """\
-Section 6, resonance: the map in closed form, every formula derived, and what the paper missed.
-
-Without options this proves the claims R1 to R13, and E1. With NU, EPSILON, PHI and GAMMA, exact
-numbers, it prints bounds on the next impact after one at phase PHI with the velocity GAMMA = v /
-(omega_n p): its phase (mod 2 pi), its velocity, and the limit phase that all further impacts tend
-to:
-
-  python -m proofs resonance --nu -0.2 --epsilon 0.5 --phi 1 --gamma -0.3 [--digits 30] [--json -]
-""",
+Section 6, resonance: the map in closed form, every formula derived, and what the paper missed.""",
     ),
     Group(
         "explore",

@@ -7,8 +7,7 @@ between them leave I; at other eta and nu they are found if they are not given. 
 exactly one phase with that itinerary that repeats it for ever, and no other phase is periodic with
 its orbit in I0 and I1. Then each phase is enclosed, with its multiplier: the derivative of f^n
 there, n the length of the word (for a word such as 0101, of period 2, the square of that of its
-orbit). With --cycles the rate at which orbits escape follows, twice: proved by the transfer
-operator, and from the multipliers of the shorter orbits alone.
+orbit).
 """
 
 from __future__ import annotations
@@ -36,15 +35,11 @@ from proofs.trusted.parameters import PAPER, Parameters
 
 if TYPE_CHECKING:
     from proofs.methods.orbits import PeriodicPoint
-    from proofs.motion.horseshoe_map import ImpactMap
 
 LEFT, RIGHT = (Fraction("1.1"), Fraction("1.15")), PAPER.right
 _LONGEST_PERIOD = 16
-_LONGEST_ORBITS = 20
 _LONGEST_WORD = 256
 _SHOWN = 16  # rows on the screen
-_EXPANSION = 10  # the longest period for the escape rate: more than 20 digits of it
-_FAST_DIGITS = 14
 _ENDS = ("lower", "upper")
 
 EPILOG = """\
@@ -57,10 +52,8 @@ exit status: 0 all points are proved and enclosed, 1 undecided: the horseshoe is
 examples:
   python -m proofs orbits --period 3
   python -m proofs orbits --word 0010 --digits 50
-  python -m proofs orbits --cycles 20 --fast --csv orbits.csv
   python -m proofs orbits --eta 0.103 --nu 0.541 --period 2     the sets are found there
   python -m proofs orbits --period 12 --csv orbits.csv
-  python -m proofs orbits --period 16 --fast --json - > orbits.json
 """
 
 
@@ -78,54 +71,24 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _answer(parser: Parser, of: Parameters, options: Namespace) -> int:
     """Print or write the periodic points; return the exit status."""
-    from proofs.search.periodic import horseshoe, own_horseshoe
+    from proofs.search.periodic import horseshoe, of_words, own_horseshoe
 
-    places = None if options.fast else options.digits
     began = perf_counter()
     try:
         options.tell("the horseshoe")
         proved = horseshoe(of) if options.left else own_horseshoe(of)
         of = proved.of
-        found = _found(proved, options, places)
+        points = of_words(proved, options.word or options.period, options.digits, options.tell)
     except (Undecided, IntervalError, OverflowError) as failure:
         print(f"{parser.prog}: UNDECIDED: {failure}", file=sys.stderr)
         return 1
     seconds = perf_counter() - began
     options.tell("")
-    shown = options.digits if places else min(options.digits, _FAST_DIGITS)
-    rows = [_row(point, shown) for point in found]
+    rows = [_row(point, options.digits) for point in points]
     write_target(parser, options.csv, lambda: _csv(rows))
-    answer: Answer = {"parameters": _machine_form(of, places), "orbits": rows}
-    if options.cycles:
-        answer["escape"] = _escape(proved, options, places, shown)
-    give(parser, options, answer, lambda _: _text(of, rows, answer.get("escape"), seconds))
+    answer: Answer = {"parameters": _machine_form(of, options.digits), "orbits": rows}
+    give(parser, options, answer, lambda _: _text(of, rows, seconds))
     return 0
-
-
-def _found(of: ImpactMap, options: Namespace, places: int | None) -> list[PeriodicPoint]:
-    """Return the points of the words asked for, or one of each orbit."""
-    from proofs.search.periodic import of_orbits, of_words
-
-    if options.cycles:
-        return of_orbits(of, options.cycles, places, options.tell)
-    return of_words(of, options.word or options.period, places, options.tell)
-
-
-def _escape(of: ImpactMap, options: Namespace, places: int | None, shown: int) -> Answer:
-    """Return the escape rate by the operator, if it is proved, and by the cycles."""
-    from proofs.search.periodic import escape_by_cycles
-    from proofs.search.s32_dimension import escape
-
-    options.tell("the escape rate")
-    most = min(options.cycles, _EXPANSION)
-    rate = escape_by_cycles(of, most, places, 60 + shown * 10 // 3, options.tell)
-    proved = escape(of.of, shown, options.tell)
-    return {
-        "rate": proved and bounds(proved.rate, shown),
-        "statement": proved and proved.sentence,
-        "by_cycles": bounds(rate, shown),
-        "periods": most,
-    }
 
 
 def _parser() -> Parser:
@@ -133,11 +96,8 @@ def _parser() -> Parser:
     which = parser.add_mutually_exclusive_group(required=True)
     add, period = which.add_argument, whole("a period", _LONGEST_PERIOD)
     add("--period", type=period, metavar="N", help=f"all words of length N, 1 to {_LONGEST_PERIOD}")
-    help_text = f"all orbits of least period N, 1 to {_LONGEST_ORBITS}, a row each"
-    add("--cycles", type=whole("a period", _LONGEST_ORBITS), metavar="N", help=help_text)
     add("--word", type=_word, metavar="W", help="one word of 0 and 1, with its rotations")
     add = parser.add_argument
-    add("--fast", action="store_true", help="binary64 only, some 12 digits")
     add("--eta", type=number, default=PAPER.eta, help="frequency ratio (default 0.2121)")
     add("--nu", type=number, default=PAPER.nu, help="amplitude -beta/p (default -0.2)")
     for name, default in (("left", LEFT), ("right", RIGHT)):
@@ -190,7 +150,7 @@ def _row(point: PeriodicPoint, places: int) -> Answer:
     return {"word": point.word, "period": point.period, **ends}
 
 
-def _machine_form(of: Parameters, places: int | None) -> Answer:
+def _machine_form(of: Parameters, places: int) -> Answer:
     """Return the JSON object of what was asked."""
     sets = {"left": of.left, "right": of.right, "interval": of.interval}
     return {
@@ -212,7 +172,7 @@ def _csv(rows: list[Answer]) -> str:
     return target.getvalue()
 
 
-def _text(of: Parameters, rows: list[Answer], escape: Answer | None, seconds: float) -> str:
+def _text(of: Parameters, rows: list[Answer], seconds: float) -> str:
     said = []
     for row in rows[:_SHOWN]:
         said.append(f"{row['word']}  period {row['period']}")
@@ -220,31 +180,9 @@ def _text(of: Parameters, rows: list[Answer], escape: Answer | None, seconds: fl
     if len(rows) > _SHOWN:
         said.append(f"... and {len(rows) - _SHOWN} more: --csv and --json have all of them")
     sets = f"in I0 = {show_range(of.left)}, I1 = {show_range(of.right)}"
-    if escape:
-        said += ["", *_rates(escape)]
-        what = (
-            f"{len(rows)} orbits of least period {rows[0]['period']} {sets}, all that there are, "
-            "each with the phase of the first of its words"
-        )
-    else:
-        orbits = sum(Fraction(1, row["period"]) for row in rows)
-        what = (
-            f"{len(rows)} words of length {len(rows[0]['word'])}: one periodic phase each, proved "
-            f"to exist and to be the only one of its word {sets}; orbits: {orbits}"
-        )
-    said.append(f"\n{what}, in {seconds:.2f} s")
+    orbits = sum(Fraction(1, row["period"]) for row in rows)
+    said.append(
+        f"\n{len(rows)} words of length {len(rows[0]['word'])}: one periodic phase each, proved "
+        f"to exist and to be the only one of its word {sets}; orbits: {orbits}, in {seconds:.2f} s"
+    )
     return "\n".join(said)
-
-
-def _rates(escape: Answer) -> list[str]:
-    """Say what is known of the escape rate."""
-    cycles = lines("", escape["by_cycles"], 0)
-    said = [
-        "escape rate by the orbits of the periods up to "
-        f"{escape['periods']} (what longer ones add is not bounded):",
-        *cycles,
-    ]
-    if not escape["rate"]:
-        return [*said, "no bounds are proved by the transfer operator"]
-    proved = f"proved by the transfer operator, -log of its growth: {escape['statement']}"
-    return [*said, proved, *lines("", escape["rate"], 0)]

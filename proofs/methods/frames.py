@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations, pairwise, product
 
 import numpy as np
@@ -127,6 +127,17 @@ def _sides(
             break
         sides = grown
     raise Undecided("the sides of the sets grow without end")
+
+
+def widened(candidates: Frames) -> Frames:
+    """Return the sets, each stable side the geometric mean of what it was and of the unstable one.
+
+    Where the map contracts much, the least sides are so thin that images would have to be enclosed
+    much more tightly than they cross.
+    """
+    sizes = np.abs(candidates.matrices).max(axis=1, keepdims=True)
+    factors = np.sqrt(np.maximum(sizes[:, :, :1] / sizes, 1))
+    return replace(candidates, matrices=candidates.matrices * factors)
 
 
 def laps(sampled: Sampled, side: Range) -> Frames:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
+from functools import partial
 from itertools import combinations, islice
 from typing import Any, NamedTuple
 
@@ -13,7 +14,7 @@ import numpy as np
 from intervals import Undecided
 from proofs.methods.derivation import Derivation
 from proofs.methods.formulas import Tree, inverse, subdivide
-from proofs.methods.frames import Frames, crossing, frames, laps
+from proofs.methods.frames import Frames, crossing, frames, laps, widened
 from proofs.methods.newton import distance
 from proofs.methods.sampling import Floats, Sampled
 from proofs.trusted.certificate import texts
@@ -21,6 +22,7 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.cones import Form, check_cone
 from proofs.trusted.kernel.covers import HSet, LocalMap, Rows, beyond, cube
 from proofs.trusted.kernel.enclose import Box, attempts, enclosed
+from proofs.trusted.kernel.flow import Flow
 from proofs.trusted.kernel.graph import Graph
 from proofs.trusted.kernel.maps import Map
 from proofs.trusted.kernel.meter import Exhausted, metered
@@ -33,6 +35,7 @@ _MOST_PAIRS, _MOST_PROOFS, _LONGEST_WORD = 40, 3, 4
 _WORK = 8_000_000  # of all attempts at one iterate
 _PARTS = 16  # of an h-set, on which derivatives are enclosed
 _CUBE = (Fraction(-1), Fraction(1))
+_STRIP, _LEAST = (-Fraction(1, 16), Fraction(1, 16)), Fraction(1, 2**20)
 
 
 def add_h_set(file: Derivation, centre: tuple[Fraction, ...], matrix: Rows) -> str:
@@ -67,10 +70,11 @@ def add_covers(
     tip = local.values(enclosed(((Fraction(1),) * 2, *((Fraction(0),) * 2,) * (n - 1)), _BITS))[0]
     way = 1 if tip.lo + tip.hi > 0 else -1
     ends = [((end, end), *cube(n - 1)) for end in _CUBE]
+    tree = partial(_tree, local, scale=_scale(local, n), most=most)
     trees = {
-        "left": _tree(local, ends[0], lambda values: beyond(values[0], -way), most),
-        "right": _tree(local, ends[1], lambda values: beyond(values[0], way), most),
-        "support": _tree(local, cube(n), _clear, most),
+        "left": tree(ends[0], lambda values: beyond(values[0], -way)),
+        "right": tree(ends[1], lambda values: beyond(values[0], way)),
+        "support": tree(cube(n), _clear),
     }
     place = {"function": function, "power": str(power), "source": source, "target": target}
     turns = {"turns": list(map(str, local.turns))} if map_.circles else {}
@@ -90,14 +94,27 @@ def _turns(map_: Map, power: int, source: HSet, target: HSet) -> tuple[int, ...]
     return tuple(int(np.round(apart[c.place] / sampled.periods[c.place])) for c in map_.circles)
 
 
-def _tree(local: LocalMap, box: Box, holds: Any, most: int) -> Tree:
+def _scale(local: LocalMap, n: int) -> Box:
+    """Return sides whose images are enclosed about equally widely, to halve boxes by."""
+    units = []
+    for j in range(n):
+        strip = [_STRIP if k == j else (Fraction(0),) * 2 for k in range(n)]
+        values = local.values(enclosed(tuple(strip), _BITS))
+        reach = max(high - low for low, high in (x.range for x in values))
+        units.append((Fraction(0), 1 / max(reach, _LEAST)))
+    return tuple(units)
+
+
+def _tree(local: LocalMap, box: Box, holds: Any, scale: Box, most: int) -> Tree:
+    ways = 1 if isinstance(local.map, Flow) else 2  # a flow's values have the mean value form
+
     def decided(part: Box) -> bool:
         try:
-            return any(holds(values) for values in islice(attempts(local, part, (_BITS,)), 2))
+            return any(holds(values) for values in islice(attempts(local, part, (_BITS,)), ways))
         except Unproved:
             return False
 
-    return subdivide(box, decided, most=most)
+    return subdivide(box, decided, scale, most)
 
 
 def add_entropy(file: Derivation, graph: str, longest: int) -> str:
@@ -246,8 +263,11 @@ class Candidates(NamedTuple):
             seen = []
             for pair in pairs[: int(_MOST_PAIRS * self.share)]:
                 with suppress(Undecided, np.linalg.LinAlgError):
-                    candidates = frames(sampled, pair, length)
-                    seen.append((crossing(sampled, candidates), candidates))
+                    thin = frames(sampled, pair, length)
+                    for candidates in (widened(thin), thin):
+                        with suppress(Undecided):
+                            seen.append((crossing(sampled, candidates), candidates))
+                            break
             ordered = sorted(seen, key=lambda each: -each[0])
             for _, candidates in ordered[: max(1, int(_MOST_PROOFS * self.share))]:
                 yield candidates

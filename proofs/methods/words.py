@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import islice, product
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,16 +22,6 @@ class Words:
     def of_length(cls, length: int, alphabet: str = "01") -> Words:
         """Return all words of a length over the digits of an alphabet, in lexicographic order."""
         return cls(tuple("".join(letters) for letters in product(sorted(alphabet), repeat=length)))
-
-    @classmethod
-    def of_orbits(cls, length: int, most: int, alphabet: str = "01") -> Iterator[Words]:
-        """Yield the words of least period `length`, orbit by orbit, so many orbits at a time.
-
-        An orbit begins with the first of its words in lexicographic order.
-        """
-        orbits = lyndon(length, alphabet)
-        while some := tuple(islice(orbits, most)):
-            yield cls(tuple(word[i:] + word[:i] for word in some for i in range(length)))
 
     @classmethod
     def rotations(cls, word: str) -> Words:
@@ -62,21 +51,3 @@ class Words:
                 found.append(cycle)
                 seen.update(cycle)
         return found
-
-
-def lyndon(length: int, alphabet: str = "01") -> Iterator[str]:
-    """Yield the words of a length that come before all their rotations, in lexicographic order.
-
-    They are the words that are no power of a shorter one, one for each orbit of rotations. Source:
-    Duval 1988: the next such word, of any length up to this one, is the last repeated up to the
-    length, without its trailing last letters, and with the letter after its final one.
-    """
-    letters = sorted(alphabet)
-    word = [-1]
-    while word:
-        word[-1] += 1
-        if len(word) == length:
-            yield "".join(letters[i] for i in word)
-        word = [word[i % len(word)] for i in range(length)]
-        while word and word[-1] == len(letters) - 1:
-            word.pop()

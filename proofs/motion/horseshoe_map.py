@@ -2,28 +2,28 @@
 
 from __future__ import annotations
 
+from bisect import bisect
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache, cached_property
-from typing import NamedTuple
+from functools import cached_property
 
 import numpy as np
 
-from intervals import Interval, IntervalArray, Undecided
-from intervals.rounding import float_down, float_up
+from intervals import Interval, Undecided
 from proofs.methods.orbits import Floats
 from proofs.methods.words import Symbols
-from proofs.motion.kernel import Launches, enclose_times
 from proofs.motion.many import float_clock, float_launch, next_impacts
 from proofs.motion.system import System
 from proofs.motion.witness import HORIZON
-from proofs.trusted.equations import Clock, Launch, gap, launch, slope
+from proofs.trusted.equations import Clock, Launch, clock, gap, launch, slope
 from proofs.trusted.flights import FirstImpact
 from proofs.trusted.numbers import Range
 from proofs.trusted.parameters import Parameters
 
 _STEPS = 5  # of Newton's method, from between two phases of the grid
 _GRID = 17  # phases of a part whose flights are seen first
+_FAR = "a candidate is too far from the orbit"
+_ROUNDING = 12  # bits of a time that may be lost
 
 
 def turn(precision: int) -> Interval:
@@ -37,6 +37,12 @@ class ImpactMap:
 
     On I_j, f(phi) is phi + t - 2 pi turns[j], t the time of the first impact, and covers I.
     parts: transversal first impacts on all of I0 and I1, rounded outward to binary64, in order.
+
+    Below t is the time from a phase x to y, next to f(x), and t* that of the first impact after x.
+    The gap falls all over the window of the part of x, and t* is its one zero there. Between times
+    with gap > 0 and gap < 0 around t, by the mean value theorem, f(x) - y = t* - t =
+    -gap(t) / gap'(s) with s between them. The table's sine and cosine do not see whole turns, and
+    are taken of y - x: of a smaller number, with less rounding.
     """
 
     of: Parameters
@@ -55,17 +61,14 @@ class ImpactMap:
         return System(self.of.eta, self.of.nu)
 
     @cached_property
-    def _table(self) -> tuple[Floats, Floats, Floats]:
-        """Of the parts: both ends, and times up to which no impact follows."""
-        phases = [part.motion.phases for part in self.parts]
-        lower = np.array([float_up(low) for low, _ in phases])
-        upper = np.array([float_down(high) for _, high in phases])
-        return lower, upper, np.array([float_down(part.windows[0][0]) for part in self.parts])
+    def _ends(self) -> list[Range]:
+        """The phases of the parts."""
+        return [part.motion.phases for part in self.parts]
 
     @cached_property
     def _seen(self) -> tuple[Floats, Floats]:
         """Increasing phases, and about the times of their first impacts."""
-        lower, upper, _ = self._table
+        lower, upper = np.array(self._ends, float).T
         phases = np.linspace(lower, upper, _GRID, axis=1).ravel()
         times = next_impacts(
             self.system.side, float(self.of.eta), float(self.of.nu), phases, float(HORIZON)
@@ -74,144 +77,53 @@ class ImpactMap:
             raise Undecided("in floating point a phase sticks, or never impacts")
         return phases, times
 
-    def _last(self, x: Floats) -> Floats:
-        """Return times up to which no impact follows launches at x: each in the last part that does
-        not begin after it.
-        """
-        lower, upper, last = self._table
-        index = np.searchsorted(lower, x, side="right") - 1
-        if not ((lower[index] <= x) & (x <= upper[index])).all():
-            raise ValueError("a phase outside I0 and I1")
-        return last[index]
-
-    def _flights(self, x: Floats) -> tuple[Floats, Floats]:
-        """Return about the time of flight after x and f', by Newton's method from what is seen."""
+    def approximate(self, symbols: Symbols, x: Floats) -> tuple[Floats, Floats]:
+        """Return about f and f', by Newton's method from the flights that are seen."""
         t = np.interp(x, *self._seen)
         start = float_launch(self.system, x)
         for _ in range(_STEPS):
             now = float_clock(self.system, t)
             t = t - gap(start, now) / gap(start, now, 1)
-        return t, np.asarray(slope(start, now))
+        return x + t - 2.0 * np.pi * np.array(self.turns)[symbols], np.asarray(slope(start, now))
 
-    def approximate(self, symbols: Symbols, x: Floats) -> tuple[Floats, Floats]:
-        """Return about f and f'."""
-        t, slopes = self._flights(x)
-        return x + t - 2.0 * np.pi * np.array(self.turns)[symbols], slopes
+    def _window(self, x: Interval) -> Interval:
+        """Return times in which the gap falls for all launches of the part of x."""
+        index = bisect(self._ends, x.inf, key=lambda ends: ends[0]) - 1
+        if index < 0 or x.sup > self._ends[index][1]:
+            raise ValueError("a phase outside I0 and I1")
+        return Interval(*self.parts[index].windows[0], precision=x.precision)
 
-    def defects(self, symbols: Symbols, x: Floats, y: Floats) -> IntervalArray:
-        """Enclose f(x) - y."""
-        t, phases = self._flights(x)[0], IntervalArray.from_floats(x)
-        times = enclose_times(Launches(self.system, phases), self._last(x), (t, t))
-        whole = IntervalArray([turn(100) * count for count in self.turns])[symbols]
-        return times - whole + phases - IntervalArray.from_floats(y)
+    def _launch(self, x: Interval) -> Launch:
+        """Return the launches at x."""
+        eta, nu = (Interval(each, precision=x.precision) for each in (self.of.eta, self.of.nu))
+        return launch(self.system.side, eta, nu, x)
 
-    def germs(self, symbols: Symbols, boxes: IntervalArray) -> ImpactGerms:
-        """Return f near the boxes; a box over two parts has no impact before either's last time."""
-        (t, slopes), launches = self._flights(boxes.mid), Launches(self.system, boxes)
-        last = np.minimum(self._last(boxes.inf), self._last(boxes.sup))
-        times = enclose_times(launches, last, (t, t), 2.0 * np.abs(slopes - 1.0) * boxes.rad)
-        return ImpactGerms(self.system, launches, times, self.turns, symbols)
+    def _clock(self, symbol: int, x: Interval, y: Interval) -> Clock:
+        """Return the clock at t."""
+        ahead, eta = y - x, self.of.eta
+        return Clock(
+            *((ahead + turn(x.precision) * self.turns[symbol]) * eta).sincos(), *ahead.sincos()
+        )
 
-
-class _Window(NamedTuple):
-    """The times around an impact, gap' over them, and the turns of the table up to there."""
-
-    times: Interval
-    speed: Interval
-    turns: int
-
-
-class _Constants(NamedTuple):
-    """eta, nu, and the phase of the mass after a turn of the table, 2 pi eta."""
-
-    eta: Interval
-    nu: Interval
-    mass_turn: Interval
-
-
-@dataclass(frozen=True)
-class ImpactGerms:
-    """f over boxes of launches: `times` holds exactly one zero of the gap, the first impact.
-
-    x and y below are phases in a box and next to its image, so that t = y - x + 2 pi turns is
-    the time from x to y. Let t* be that of the impact after x. Where t is in the window `times`,
-
-        f(x) - y = t* - t = -gap(t) / gap'(s), with s between t and t*, in the window too,
-
-    by the mean value theorem, as gap(t*) = 0. If f(x) = y, then t = t*. The table's sine and
-    cosine do not see the turns, and are taken of y - x: of a smaller number, with less rounding.
-    """
-
-    system: System
-    launches: Launches
-    times: IntervalArray
-    turns: tuple[int, int]
-    symbols: Symbols
-
-    @cached_property
-    def slopes(self) -> IntervalArray:
-        """Enclosures of f'."""
-        return self.launches.slopes(self.times)
-
-    @cached_property
-    def _speeds(self) -> IntervalArray:
-        """Enclosures of gap' over boxes and windows."""
-        return self.launches.speeds(self.times)
-
-    @cached_property
-    def _windows(self) -> list[_Window]:
-        """The windows, one by one."""
-        turns = [self.turns[symbol] for symbol in self.symbols.tolist()]
-        return list(map(_Window, self.times.tolist(), self._speeds.tolist(), turns))
-
-    def _flight(self, index: int, x: Interval, y: Interval) -> tuple[Launch, Clock]:
-        """Return the launches at x, and the clock at t."""
-        at, ahead, turns = _constants(self.system, x.precision), y - x, self._windows[index].turns
-        now = Clock(*(at.eta * ahead + at.mass_turn * turns).sincos(), *ahead.sincos())
-        return launch(self.system.side, at.eta, at.nu, x), now
-
-    def defect(self, index: int, x: Interval, y: Interval) -> Interval:
-        """Enclose f(x) - y."""
-        window = self._windows[index]
-        time = y - x + turn(x.precision) * window.turns
-        if not time.subset(window.times):
+    def defect(self, symbol: int, x: Interval, y: Interval) -> Interval:
+        """Enclose f(x) - y; Undecided where that is not small."""
+        start, now = self._launch(x), self._clock(symbol, x, y)
+        time = y - x + turn(x.precision) * self.turns[symbol]
+        height, speed = gap(start, now), gap(start, now, 1)
+        if speed.contains_zero():
             raise Undecided(_FAR)
-        height: Interval = gap(*self._flight(index, x, y))
-        return -height / window.speed
+        reach = 2 * (height / speed).mag + time.mag / 2 ** (x.precision - _ROUNDING)
+        times = time.widen(reach)
+        above, below = (
+            gap(start, clock(start.eta, Interval(end, precision=x.precision)))
+            for end in (times.inf, times.sup)
+        )
+        if not (times.subset(self._window(x)) and above.inf > 0 > below.sup):
+            raise Undecided(_FAR)
+        distance: Interval = -height / gap(start, clock(start.eta, times), 1)
+        return distance
 
-    def slope(self, index: int, x: Interval, y: Interval) -> Interval:
+    def slope(self, symbol: int, x: Interval, y: Interval) -> Interval:
         """Enclose f' at the points of x with images in y."""
-        found: Interval = slope(*self._flight(index, x, y))
-        return found
-
-    def _all_turns(self, each: Interval) -> IntervalArray:
-        """Return the turns of each box, times a constant, as tight as binary64 can."""
-        return IntervalArray([each * count for count in self.turns])[self.symbols]
-
-    def _flights(self, x: IntervalArray, y: IntervalArray) -> tuple[Launch, Clock]:
-        """Do `_flight` for all boxes at once."""
-        ahead = y - x
-        mass = ahead * self.system.eta + self._all_turns(_constants(self.system, 100).mass_turn)
-        return Launches(self.system, x).start, Clock(*mass.sincos(), *ahead.sincos())
-
-    def defects(self, x: IntervalArray, y: IntervalArray) -> IntervalArray:
-        """Enclose f(x) - y for all boxes at once."""
-        if not (y - x + self._all_turns(turn(100))).subset(self.times).all():
-            raise Undecided(_FAR)
-        height: IntervalArray = gap(*self._flights(x, y))
-        return -height / self._speeds
-
-    def slopes_at(self, x: IntervalArray, y: IntervalArray) -> IntervalArray:
-        """Enclose f' for all boxes at once."""
-        found: IntervalArray = slope(*self._flights(x, y))
-        return found
-
-
-@cache
-def _constants(system: System, precision: int) -> _Constants:
-    """Return the constants at a precision."""
-    eta, nu = (Interval(x, precision=precision) for x in (system.eta, system.nu))
-    return _Constants(eta, nu, turn(precision) * eta)
-
-
-_FAR = "a candidate is too far from the orbit"
+        steepness: Interval = slope(self._launch(x), self._clock(symbol, x, y))
+        return steepness

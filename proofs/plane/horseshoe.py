@@ -15,7 +15,8 @@ from intervals import Undecided
 from proofs.motion.many import float_gap, next_impacts
 from proofs.plane.settling import settles
 from proofs.plane.steps import Steps, corners
-from proofs.search.portrait import FALLS, RISES, Seen, continues
+from proofs.search.orbits import FALLS, RISES, Seen
+from proofs.search.portrait import continues
 from proofs.search.shifts import Piece, expanding, families, symbols, with_spare
 from proofs.trusted.certificate import texts
 from proofs.trusted.flights import lifted

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
-from markupsafe import Markup
+from markupsafe import Markup, escape
 
 from proofs.report import graph
 from proofs.report.atlases import Atlas
@@ -31,7 +31,7 @@ from proofs.report.names import (
 )
 from proofs.report.pictures import Picture
 from proofs.report.specification import rule_theorem
-from proofs.report.typeset import begun, html
+from proofs.report.typeset import html
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import floor_text
 from proofs.trusted.verdicts import Verdict
@@ -80,8 +80,23 @@ def rendered(template: str, **known: Any) -> str:
     )
     known = {"policy": POLICY, **known}
     environment.globals.update(known, text_of=_text_of)
-    environment.filters.update(typeset=lambda text: Markup(html(text)), formula=formula)
+    environment.filters.update(
+        typeset=lambda text: Markup(html(text)), formula=formula, coded=_coded
+    )
     return environment.get_template(template).render()
+
+
+def _coded(text: str) -> Markup:
+    """Return a text with what stands between backquotes as code."""
+    return _alternating(text, "`", lambda inner: f"<code>{escape(inner)}</code>", escape)
+
+
+def _alternating(
+    text: str, mark: str, inside: Callable[[str], str], outside: Callable[[str], str]
+) -> Markup:
+    """Return a text, each part between two marks in one way, and all others in another."""
+    parts = text.split(mark)
+    return Markup("".join(inside(x) if k % 2 else outside(x) for k, x in enumerate(parts)))
 
 
 def _text_of(name: str) -> Markup:
@@ -146,14 +161,12 @@ class View:
         return (
             Markup("")
             if statement is None
-            else Markup(html(begun(statement.conclusion.brief)) + ".")
+            else Markup(html(f"At {statement.conclusion.place}: {statement.conclusion.brief}."))
         )
 
     def words(self, claim: Finding) -> Markup:
         """Return the paper's own words, a formula between dollars as one."""
-        texts = claim.row.words.split("$")
-        parts = [mathml(text) if k % 2 else html(text) for k, text in enumerate(texts)]
-        return Markup("".join(parts))
+        return _alternating(claim.row.words, "$", mathml, html)
 
     def more(self, claim: Finding) -> list[Conclusion]:
         """Return what is proved beside a true claim, beyond what decides it."""

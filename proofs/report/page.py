@@ -55,14 +55,17 @@ _SCOPE = {
 
 
 class Line(NamedTuple):
-    """One decided claim, as the screen and the page show it; words: the paper's own, a few."""
+    """One decided claim, as the screen and the page show it.
+
+    words: the paper's own, a few. truth: the theorem that stands first, if there is one.
+    """
 
     id: str
     verdict: Verdict
     words: str
     statement: str
     why: str
-    corrected: str | None
+    truth: str | None
     quantities: Mapping[str, Range]
 
 

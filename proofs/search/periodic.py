@@ -5,13 +5,11 @@ from __future__ import annotations
 from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
-from functools import partial
 from itertools import islice
 
 from intervals import Interval, Undecided
 from intervals.rounding import float_down, float_up
 from proofs.methods.orbits import PeriodicPoint, periodic_points
-from proofs.methods.traces import escape_rate
 from proofs.methods.words import Words
 from proofs.motion.branch import Branch
 from proofs.motion.horseshoe_map import ImpactMap, turn
@@ -29,7 +27,6 @@ from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Found
 
 _TRIES = 12  # of sets that are found
-_AT_ONCE = 4000  # orbits
 _DIGITS = 14
 
 
@@ -79,34 +76,7 @@ def _full_shift(of: Parameters, left: Range, right: Range) -> ImpactMap:
     return ImpactMap(sets, shift.expansion, tuple(parts), (turns[0], turns[1]))
 
 
-def of_words(
-    of: ImpactMap, asked: str | int, places: int | None, tell: Tell
-) -> list[PeriodicPoint]:
+def of_words(of: ImpactMap, asked: str | int, places: int, tell: Tell) -> list[PeriodicPoint]:
     """Return the points of a word and its rotations, or of all words of a length."""
     words = Words.rotations(asked) if isinstance(asked, str) else Words.of_length(asked)
     return periodic_points(of, words, places, tell)
-
-
-def of_orbits(of: ImpactMap, period: int, places: int | None, tell: Tell) -> list[PeriodicPoint]:
-    """Return a point of each orbit of a least period."""
-    rows: list[PeriodicPoint] = []
-    for words in Words.of_orbits(period, _AT_ONCE):
-        points = periodic_points(of, words, places, partial(_after, len(rows), tell))
-        rows += [points[cycle[0]] for cycle in words.cycles]
-    return rows
-
-
-def escape_by_cycles(
-    of: ImpactMap, most: int, places: int | None, precision: int, tell: Tell
-) -> Range:
-    """Return the rate at which orbits escape, by the multipliers of those up to a period."""
-    found = [of_orbits(of, n, places, tell) for n in range(1, most + 1)]
-    rate = escape_rate(
-        [[Interval(*x.multiplier, precision=precision) for x in row] for row in found]
-    )
-    return rate.inf, rate.sup
-
-
-def _after(orbits: int, tell: Tell, stage: str) -> None:
-    """Tell a stage, and how many orbits are done."""
-    tell(f"{orbits} orbits; {stage}")

@@ -11,36 +11,34 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import NamedTuple
 
-from proofs.motion.candidate import next_impact
 from proofs.motion.simulate import TURNS, separation_phase
 from proofs.motion.simulate import next_impact as rebound
 from proofs.motion.system import System
-from proofs.trusted.equations import launch, launch_acceleration
+from proofs.search.orbits import (
+    FALLS,
+    FLIES,
+    LONGEST,
+    NEAR,
+    RISES,
+    STICKS,
+    TOUCHES,
+    Seen,
+    follow,
+    look,
+    multiplier,
+    stable_cycle,
+)
 
 _NARROWEST = 1e-9  # to which the ends of branches are located
 _MOST_ENDS = 400  # that are located; branches are infinitely many where flights are ever longer
 _STEEP, _FLAT = 30.0, 1e-3  # |f'| at an end where f' is unbounded, or 0
-_NEAR = 1e-7  # of an orbit to itself, in phase
 _AFTER = 1e-8  # the separation: the derivative of the next impact's phase is 0 there
 _ROUNDS = 5  # of impacts, until orbits with restitution have come to their ends
-_LONGEST = 60  # period
-_TOUCH = 1e-4  # how exactly the time of a touch is found: the gap has a double zero there
-STICKS, TOUCHES, FLIES = "sticks", "touches, no impact", "flies on"
-RISES, FALLS = "rises", "falls"
+_SLOW = 0.9  # |multiplier| above which it is said
 
 
 Check = Callable[[], None]
-
-
-class Seen(NamedTuple):
-    """What becomes of a launch: the image, phase + time, and f'; both 0 where there is none."""
-
-    phase: float
-    kind: str
-    image: float = 0.0
-    slope: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -58,17 +56,6 @@ class Stretch:
     def width(self) -> float:
         """How long the interval is."""
         return self.points[-1].phase - self.points[0].phase
-
-
-def look(system: System, phase: float, farthest: float) -> Seen:
-    """Return what becomes of one launch, flights being followed so far."""
-    found = next_impact(system, phase, farthest)
-    if found is not None and abs(found[0] - math.tau * system.eta.denominator) < _TOUCH:
-        return Seen(phase, TOUCHES)
-    if found is not None:
-        return Seen(phase, RISES if found[2] > 0 else FALLS, phase + found[0], found[2])
-    start = launch(system.side, float(system.eta), float(system.nu), phase)
-    return Seen(phase, STICKS if launch_acceleration(start) <= 0 else FLIES)
 
 
 def stretches(
@@ -120,6 +107,7 @@ def continues(one: Seen, two: Seen) -> bool:
 
 # -- where orbits go -------------------------------------------------------------------------------
 
+
 _NAMES = {
     TOUCHES: "it only touches the table, again and again",
     FLIES: "no impact is seen so far",
@@ -159,13 +147,12 @@ def fates(
     """
 
     def end(phase: float) -> tuple[str, int]:
-        for count in range(impacts):
+        for count, seen in enumerate(follow(system, phase, farthest, impacts)):
             check()
-            seen = look(system, phase, farthest)
-            if seen.kind not in (RISES, FALLS):
+            if not seen.goes_on:
                 return seen.kind, count
-            phase = seen.image % math.tau
-        return _cycle_name(system, phase, farthest), impacts
+        cycle = stable_cycle(system, seen.image % math.tau, farthest)
+        return _cycle_name(cycle), impacts
 
     ends = [end(math.tau * (k + 0.5) / starts) for k in range(starts)]
     names = _NAMES | {STICKS: _after_rest(system, farthest, lambda phase, _: end(phase)[0])}
@@ -185,18 +172,13 @@ def _after_rest(system: System, farthest: float, end: Callable[[float, float], s
     return _LEAVES if name == STICKS else _NAMES.get(name, name)
 
 
-def _cycle_name(system: System, phase: float, farthest: float) -> str:
-    """Say on which orbit a phase is, if it is on a stable one."""
-    points, multiplier = [phase], 1.0
-    for period in range(1, _LONGEST + 1):
-        seen = look(system, points[-1], farthest)
-        if seen.kind not in (RISES, FALLS):
-            break
-        multiplier *= seen.slope
-        if abs(seen.image % math.tau - phase) < _NEAR:
-            return f"{_stable(period)} near {min(points):.6f}" if abs(multiplier) < 1 else _WANDERS
-        points.append(seen.image % math.tau)
-    return _WANDERS
+def _cycle_name(cycle: Sequence[Seen]) -> str:
+    """Say which stable orbit it is, and how slowly others come to it."""
+    if not cycle:
+        return _WANDERS
+    named = f"{_stable(len(cycle))} near {min(seen.phase for seen in cycle):.6f}"
+    slope = multiplier(cycle)
+    return f"{named}, slowly: its multiplier is {slope:.6f}" if abs(slope) > _SLOW else named
 
 
 def _stable(period: int) -> str:
@@ -221,7 +203,7 @@ def rebounding_fates(
         for _ in range(_ROUNDS):
             check()
             motions.follow(impacts)
-            motions.find_cycles(_LONGEST, _NEAR)
+            motions.find_cycles(LONGEST, NEAR)
         each = zip(motions.kinds.tolist(), motions.counts.tolist(), strict=True)
         return [(kinds.get(kind) or _stable(kind), count) for kind, count in each]
 

@@ -197,19 +197,6 @@ def prove(
     return Evidence(run.prover.steps, proofs)
 
 
-def escape(of: Parameters, digits: int, tell: Tell) -> Repeller | None:
-    """Return the repeller in I0 and I1 with the growth of lengths, if f increases on both.
-
-    The phases of I0 and I1 whose images are there n - 1 times, and then in I, are the images of I
-    by the words of n letters: their length goes like the n-th power of `growth` (see `ThinShift`).
-    """
-    run = _Run(of, Prover(System(of.eta, of.nu), max(digits, LEAST_DIGITS), HORIZON), digits, tell)
-    domains = Phases(*of.left), Phases(*of.right)
-    hull = Phases(of.left[0], of.right[1])
-    found = run.attempt(partial(run.repeller, hull, domains, FULL, Fraction(1)))
-    return next((each for _, each in found if isinstance(each, Repeller)), None)
-
-
 def _staying(run: _Run) -> Proof:
     """H13: s_0, and the sets that stay in I and in an interval around it."""
     of, proof = run.of, list[tuple[str, Conclusion]]()

@@ -17,7 +17,8 @@ from proofs.motion.covering import cover_by
 from proofs.motion.system import System
 from proofs.motion.witness import FlightBox
 from proofs.search.budget import reach
-from proofs.search.portrait import Check, Seen, stretches
+from proofs.search.orbits import Seen
+from proofs.search.portrait import Check, stretches
 from proofs.search.repair import rounded_slopes
 from proofs.trusted.numbers import TURN, Range
 from proofs.trusted.parameters import Parameters

@@ -83,7 +83,8 @@ def decide(claim: str, of: Parameters, found: Evidence, digits: int) -> tuple[Li
     noted = decision.verdict in (Verdict.UNDECIDED, Verdict.SIMULATED)
     note = found.notes.get(claim) if noted else None
     why, theorem = decision.why, decision.theorem
-    said = (row.words, row.says(of), "; ".join(filter(None, (why, note))), theorem)
+    truth = theorem or (decision.witness if row.own else None)
+    said = (row.words, row.says(of), "; ".join(filter(None, (why, note))), truth)
     line = Line(claim, decision.verdict, *said, decision.quantities)
     return line, {
         "id": claim,

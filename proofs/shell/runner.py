@@ -231,7 +231,7 @@ def finish(parser: Parser, options: Namespace, made: Made, file: str, *, seconds
 
 def print_lines(lines: Sequence[Line], digits: int, *, verbose: bool) -> None:
     """Print the gist of what is true, then a line a claim; on request why, and the numbers."""
-    gists = {line.id: gist(line.corrected) for line in lines if line.corrected is not None}
+    gists = {line.id: gist(line.truth) for line in lines if line.truth is not None}
     for text in dict.fromkeys(gists.values()):
         beside = ", ".join(claim for claim, same in gists.items() if same == text)
         say(f"True ({beside}): {text}")

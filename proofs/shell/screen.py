@@ -20,6 +20,9 @@ from proofs.version import VERSION
 _LINE = 100  # of a claim
 _WIDTH = 80  # where there is no terminal
 _SENTENCE = re.compile(r"(?<=[^.]\.) ")
+_OSCILLATOR = re.compile(
+    r"^At \(eta, nu[a-z, ]*\) = \([^)]*\)(, for plastic impacts|, epsilon = [^:]*)?: "
+)
 _COLOURS = {  # of the terminal, by ECMA-48
     Verdict.VERIFIED: 32,
     Verdict.REFUTED: 31,
@@ -165,7 +168,7 @@ def show_verdicts(rows: Sequence[Decided], *, verbose: bool = True) -> None:
 
 def in_a_line(row: Decided) -> str:
     """Return a claim in a line, without the oscillator if that stands at its beginning."""
-    said = re.sub(r"^At \(eta, nu\) = \([^)]*\): ", "", row.statement)
+    said = _OSCILLATOR.sub("", row.statement)
     line = f"{row.id:4} {row.verdict.value:11} {said}"
     return line if len(line) <= _LINE else f"{line[: _LINE - 4].rsplit(' ', 1)[0]} ..."
 

@@ -180,6 +180,8 @@ class Row:
             decision = self.decide_by(of, Found(of, conclusions))._replace(of=of)
         except Unproved as failure:  # a hypothesis of a theorem
             return undecided(str(failure))
+        if self.own and decision.verdict is Verdict.VERIFIED and not decision.corrected:
+            decision = decision._replace(corrected=decision.because)  # its answer is the theorem
         if self.is_asked(of):
             return decision
         missing = f"the printed numbers are about {self.printed_at}: not asked here"

@@ -1,15 +1,10 @@
-"""Run the public operations in a foreign state of the floating-point unit; print what they gave.
+"""The public operations, and foreign states of the floating-point unit to run them in.
 
-    python -m tests.intervals.foreign_states (rounding | flush) WORD
-
-WORD goes to fesetround, or into the control word MXCSR of x86-64. Each result is its exact
-endpoints, a mask, or the text of the FloatingPointError that refused it.
+A state is a word that goes to fesetround, or into the control word MXCSR of x86-64.
 """
 
 import ctypes
-import json
 import platform
-import sys
 from contextlib import contextmanager
 from fractions import Fraction
 from functools import partial
@@ -126,11 +121,12 @@ def written(value):
     if isinstance(value, np.ndarray):
         return value.tolist()
     if isinstance(value, Interval):
-        return [[str(value.inf)], [str(value.sup)]]
-    return [[str(Fraction(x)) for x in end.ravel().tolist()] for end in (value.inf, value.sup)]
+        return [[value.inf], [value.sup]]
+    return [[*map(Fraction, end.ravel().tolist())] for end in (value.inf, value.sup)]
 
 
-if __name__ == "__main__":
-    with foreign(sys.argv[1], int(sys.argv[2], 0)):
-        results = {name: attempt(operation) for name, operation in OPERATIONS.items()}
-    print(json.dumps({name: written(value) for name, value in results.items()}))
+def results(state):
+    """What each operation gives in a state: exact ends, a mask, or the text of the refusal."""
+    with foreign(*STATES[state]):
+        found = {name: attempt(operation) for name, operation in OPERATIONS.items()}
+    return {name: written(value) for name, value in found.items()}

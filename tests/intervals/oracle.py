@@ -101,6 +101,16 @@ FUNCTIONS = {
 }
 
 
+DOMAINS = {  # where a function is defined, of those that are not so everywhere
+    "sqrt": lambda x: x >= 0,
+    **{name: lambda x: x > 0 for name in ("log", "log2", "log10")},
+    "log1p": lambda x: x > -1,
+    **{name: lambda x: abs(x) <= 1 for name in ("asin", "acos")},
+    "acosh": lambda x: x >= 1,
+    "atanh": lambda x: abs(x) < 1,
+}
+
+
 def _is_power(z, base, n):
     """Whether z = base^n, without a long power where it cannot be."""
     return n.denominator == 1 and abs(n) < 2**16 and z == Fraction(base) ** int(n)

@@ -11,7 +11,7 @@ import pytest
 from intervals.array import IntervalArray
 from intervals.elementary.binary64 import CHUNK, ERRORS, LIMIT, primitives, trigonometric
 from tests.effort import examples
-from tests.intervals.binary64_oracle import ETA, distances, points, rows
+from tests.intervals.binary64_oracle import distances, points, rows
 from tests.intervals.measure_errors import errors
 from tests.intervals.oracle import pi_bounds
 
@@ -173,18 +173,6 @@ def test_wide_results_are_tight():
         for i, (low, high) in enumerate(zip(x.inf.tolist(), x.sup.tolist(), strict=True)):
             assert y.sup[i] == (1 if sup_is_one(low, high, quarters[0]) else hull.sup[i])
             assert y.inf[i] == (-1 if sup_is_one(low, high, quarters[1]) else hull.inf[i])
-
-
-def test_inclusion_isotonicity_up_to_the_error_bound():
-    x = intervals(5, 20000)
-    rng = np.random.default_rng(6)
-    lower = np.clip(x.inf + (x.mid - x.inf) * rng.random(x.shape), x.inf, x.mid)
-    upper = np.clip(x.mid + (x.sup - x.mid) * rng.random(x.shape), x.mid, x.sup)
-    part = IntervalArray.from_floats(lower, upper)
-    for small, large in zip(part.sincos(), x.sincos(), strict=True):
-        gap = 6 * 2.0**-53 * large.mag + 2 * ETA
-        assert (small.inf >= large.inf - gap).all()
-        assert (small.sup <= large.sup + gap).all()
 
 
 def test_symmetries_hold_exactly():

@@ -3,6 +3,7 @@
 import doctest
 import importlib
 import pkgutil
+import re
 from pathlib import Path
 
 import pytest
@@ -42,3 +43,13 @@ def test_every_operation_of_the_conformance_page_exists():
 
 
 BUILTIN = {"abs", "str", "format", "repr", "eval"}
+
+
+def test_what_users_asked_for_names_its_tests():
+    page = (ROOT / "CONFORMANCE.md").read_text(encoding="utf-8")
+    rows = [line for line in page.splitlines() if re.search(r"#\d+", line)]
+    sources = "".join(path.read_text() for path in Path(__file__).parent.glob("test_*.py"))
+    assert len(rows) >= 10
+    for row in rows:
+        (name,) = re.findall(r"`(test_\w+)`", row)
+        assert f"def {name}(" in sources

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 import intervals
 from intervals import DomainError, Interval, IntervalArray
+from intervals.functions import DOMAINS
 from tests.intervals import oracle
 from tests.intervals.boxes import boxes, for_all
 
@@ -91,6 +92,10 @@ def test_domains(name, inside, outside):
                 getattr(x, name)()
     with pytest.raises(DomainError):
         getattr(IntervalArray([inside[0], outside[0]]), name)()
+
+
+def test_the_text_of_a_domain():
+    assert str(DOMAINS["log"]) == "(0, oo)" and str(DOMAINS["asin"]) == "[-1, 1]"
 
 
 STEPS = {

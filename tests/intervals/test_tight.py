@@ -1,13 +1,11 @@
 """Tight arrays against fractions: the least bounds there are; exact results of all arrays."""
 
-import math
 import operator
 import pickle
 from fractions import Fraction
 from itertools import product
 from math import inf, nextafter
 
-import mpmath
 import numpy as np
 import pytest
 from hypothesis import strategies as st
@@ -15,7 +13,7 @@ from hypothesis import strategies as st
 from intervals import Interval, IntervalArray, TightArray
 from intervals.elementary.binary64 import ERRORS
 from intervals.rounding import MAX, float_down, float_up
-from tests.intervals.binary64_oracle import distances, plane_points
+from tests.intervals.binary64_oracle import DOMAIN, distances, plane_points, points
 from tests.intervals.boxes import for_all
 from tests.intervals.foreign_states import STATES, foreign, x86_linux
 from tests.intervals.test_array import BINARY
@@ -73,52 +71,18 @@ def test_squares_and_roots_are_the_least(ends):
             )
 
 
-# -- elementary functions, against mpmath at 200 bits ----------------------------------------------
-
-ARGUMENTS = {  # in units of 2^-60, with results between 2^-900 and 2^900
-    **dict.fromkeys(("exp", "expm1", "sinh", "cosh", "exp2"), (-600, 600)),
-    **dict.fromkeys(("asin", "acos", "atanh"), (-1, 1)),
-    **dict.fromkeys(("sin", "cos", "tan"), (-1024, 1024)),
-    **dict.fromkeys(("log", "log2", "log10", "acosh"), (1, 2**50)),
-    **dict.fromkeys(("tanh", "atan", "asinh", "cbrt"), (-(2**50), 2**50)),
-    "exp10": (-250, 250),
-    "log1p": (-1, 2**50),
-}
-OF_MPMATH = {
-    "exp2": lambda x: mpmath.power(2, x),
-    "exp10": lambda x: mpmath.power(10, x),
-    "log2": lambda x: mpmath.log(x, 2),
-    "cbrt": lambda x: mpmath.sign(x) * mpmath.cbrt(abs(x)),
-}
+# -- elementary functions, against Arb -------------------------------------------------------------
 
 
-def true_value(name, x):
-    """f(x) within 2^-150 of it, relatively."""
-    with mpmath.workprec(200 if abs(x) > 1e-3 else 500):
-        y = OF_MPMATH.get(name, getattr(mpmath, name, None))(mpmath.mpf(x))
-        man, exponent = y.man_exp
-        return (-1) ** (y < 0) * Fraction(int(man)) * Fraction(2) ** int(exponent)
-
-
-@pytest.mark.parametrize("name", sorted(ARGUMENTS))
-@for_all(st.lists(st.tuples(st.floats(0, 1), st.integers(-40, 0)), min_size=1, max_size=12))
-def test_elementary_functions_are_within_one_ulp_and_a_half(name, places):
-    low, high = ARGUMENTS[name]
-    near = 1.0 if name.startswith(("log", "acosh")) and name != "log1p" else 0.0
-    x = [near + t * 2.0**k * ((high if t > 0.5 else low) - near) for t, k in places]
-    x = [v for v in x if low < v < high]
-    if not x:
-        return
-    few = TightArray.from_floats(x)
-    for X in (few, np.concatenate([few] * 12)):  # one by one, and by numpy
-        found = getattr(X, name)()
-        assert type(found) is TightArray
-        for v, least, most in zip(x, found.inf.tolist(), found.sup.tolist(), strict=False):
-            true, ulp = true_value(name, v), Fraction(math.ulp(max(abs(least), abs(most))))
-            slack = abs(true) / 2**150
-            assert Fraction(least) <= true + slack and true - slack <= Fraction(most)
-            reach = max(true - Fraction(least), Fraction(most) - true)
-            assert reach <= Fraction(3, 2) * ulp, (name, v.hex())
+@pytest.mark.parametrize("name", sorted(DOMAIN))
+@pytest.mark.parametrize("count", [12, 1200])
+def test_elementary_functions_are_within_one_ulp_and_a_half(name, count):
+    """Few of them one by one, many by numpy."""
+    x = points(name, count, seed=14)
+    x = x[(np.abs(x) > 2.0**-300) | (x == 0)]
+    found = getattr(TightArray.from_floats(x), name)()
+    assert type(found) is TightArray
+    assert distances(name, [x], found._rows).max() <= 1.5
 
 
 def test_bounds_that_are_proved():

@@ -1,7 +1,6 @@
 """The tightest functions against Arb at three times the precision and more, and exact cases."""
 
 import itertools
-import os
 import random
 from fractions import Fraction
 
@@ -18,14 +17,6 @@ from tests.intervals import oracle
 from tests.intervals.boxes import for_all, numbers, precisions
 from tests.intervals.oracle import encloses, exponent, outward, quarter_turns, rounded
 
-DOMAINS = {
-    "sqrt": lambda x: x >= 0,
-    **{name: lambda x: x > 0 for name in ("log", "log2", "log10")},
-    "log1p": lambda x: x > -1,
-    **{name: lambda x: abs(x) <= 1 for name in ("asin", "acos")},
-    "acosh": lambda x: x >= 1,
-    "atanh": lambda x: abs(x) < 1,
-}
 LARGEST = dict.fromkeys(("exp", "exp2", "exp10", "sinh", "cosh"), 2**20) | {
     "expm1": 500,  # beyond these the oracle would need as many bits
     "tanh": 500,
@@ -36,8 +27,6 @@ EVERY = FUNCTIONS | {  # of one number
     "sin": lambda x, precision: tightest.sincos(x, precision)[0],
     "cos": lambda x, precision: tightest.sincos(x, precision)[1],
 }
-
-POINTS = int(os.environ.get("RANDOM_POINTS", "1500"))  # of each function: 100000 now and then
 
 
 def raw(x):
@@ -64,7 +53,7 @@ def into_domain(name, x):
 
 
 def in_domain(name, x):
-    return DOMAINS.get(name, lambda _: True)(x)
+    return oracle.DOMAINS.get(name, lambda _: True)(x)
 
 
 def check(name, x, precision):
@@ -74,7 +63,7 @@ def check(name, x, precision):
 
 
 @pytest.mark.parametrize("name", EVERY)
-@for_all(st.data(), precisions, precisions, st.sampled_from([-1, 1]), tries=30)
+@for_all(st.data(), precisions, precisions, st.sampled_from([-1, 1]), tries=30, at_length=150)
 def test_tight(name, data, width, precision, sign):
     x = into_domain(name, sign * data.draw(numbers(width)))
     assume(in_domain(name, x))
@@ -89,15 +78,6 @@ def any_number(rng):
     if rng.random() < 0.15:
         x = 1 + rng.choice([-1, 1]) * Fraction(1, 2 ** rng.randint(2, 300))
     return rng.choice([-1, 1]) * x
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", EVERY)
-def test_tight_at_many_points(name):
-    rng = random.Random(f"tightest {name}")
-    for _ in range(POINTS):
-        x = into_domain(name, any_number(rng))
-        check(name, x, rng.choice([2, 3, 10, 53, 53, 113, 200, 333]))
 
 
 @pytest.mark.parametrize("name", EVERY)
@@ -132,7 +112,9 @@ signs = st.sampled_from([-1, 0, 1, 1])
 
 
 @pytest.mark.parametrize("name", TWO)
-@for_all(st.data(), precisions, precisions, precisions, signs, st.sampled_from([-1, 1]), tries=60)
+@for_all(
+    st.data(), precisions, precisions, precisions, signs, st.sampled_from([-1, 1]), at_length=200
+)
 def test_functions_of_two_numbers_are_tight(name, data, width, height, precision, sign, other):
     x = data.draw(numbers(width))
     if name == "pow":
@@ -148,17 +130,6 @@ def test_functions_of_two_numbers_are_tight(name, data, width, height, precision
 def test_integer_power_is_tight(data, width, precision, n, sign):
     x = sign * data.draw(numbers(width))
     assert exact(tightest.integer_power(raw(x), n, precision)) == outward(x**n, x**n, precision)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", TWO)
-def test_two_numbers_at_many_points(name):
-    rng = random.Random(f"tightest {name}")
-    for _ in range(POINTS):
-        x, y = any_number(rng), any_number(rng)
-        if name == "pow":
-            x, y = abs(x), y if rng.random() < 0.7 else Fraction(rng.randint(-40, 40), 8)
-        check_two(name, x, y, rng.choice([2, 3, 10, 53, 113, 200, 333]))
 
 
 EXACT_POWERS = """4^1/2=2 2^-3=1/8 9/4^3/2=27/8 1/4^-3/2=8 0^1/2=0 0^5=0 7^0=1 1^-5/2=1 5^3=125
@@ -310,7 +281,7 @@ def test_powers_next_to_one_end():
         assert exact(tightest.power(raw(x), raw(-y), 53)) == (below, 1)
 
 
-# -- identities ------------------------------------------------------------------------------------
+# -- roots -----------------------------------------------------------------------------------------
 
 
 @for_all(st.data(), precisions)
@@ -332,21 +303,6 @@ def test_roots_of_powers_are_exact(data, precision):
 def test_the_integer_root(m, n):
     r = algebraic.integer_root(m, n)
     assert r**n <= m < (r + 1) ** n
-
-
-@for_all(st.data(), precisions, tries=60)
-def test_identities(data, precision):
-    x = raw(data.draw(numbers(precision, largest=8)))
-    minus, one, p = (1, *x[1:]), raw(1), precision
-    assert tightest.atan2(x, one, p) == FUNCTIONS["atan"](x, p)
-    for name in ODD:
-        if name not in ("asin", "atanh") or x[2] + x[3] <= 0:
-            assert FUNCTIONS[name](minus, p) == ziv.negated(FUNCTIONS[name](x, p))
-    assert tightest.power(x, raw(2), p) == tightest.integer_power(x, 2, p)
-    assert tightest.power(x, raw(Fraction(1, 2)), p) == FUNCTIONS["sqrt"](x, p)
-    assert tightest.power(raw(2), x, p) == FUNCTIONS["exp2"](x, p)
-    assert tightest.power(raw(10), x, p) == FUNCTIONS["exp10"](x, p)
-    assert FUNCTIONS["cosh"](minus, p) == FUNCTIONS["cosh"](x, p)
 
 
 # -- Ziv's strategy --------------------------------------------------------------------------------

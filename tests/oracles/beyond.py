@@ -101,6 +101,25 @@ def sticking_motion(view, rng):
     return told
 
 
+def sticks_once(view, rng):
+    """The flight from the separation, impacts in the cells, then in the orbit's, or none."""
+    told = separation_arc(view.arc, rng)
+    _, found = _released(view.arc)
+    orbit = getattr(view.end, "cells", ())
+    sets = [[cell] for cell in view.cells] + ([orbit] * 60 if orbit else [[view.end.phases]])
+    for near in sets:
+        if not isinstance(found, Impact):
+            return told
+        if sticks(view.arc.eta, view.arc.nu, found.phase):
+            return [*told, f"the mass sticks at {found.phase:.12g}"]
+        if not any(_in_cell(found.phase, cell) for cell in near):
+            return [*told, f"an impact at {found.phase:.12g}, not in {near}"]
+        found = next_impact(view.arc.eta, view.arc.nu, Fraction(found.phase))
+    if not orbit and isinstance(found, Impact):
+        told.append(f"one more impact, at {found.phase:.12g}")
+    return told
+
+
 def _comes_to_stick(view, phase):
     """Whether the mass sticks at an impact, or, if a landing is said, at the next one."""
     eta, nu = view.arc.eta, view.arc.nu
@@ -154,17 +173,3 @@ def stable_orbit(view, rng):
     if len(slopes) == len(cells) and not inside(prod(slopes), view.contraction, 1e-9):
         told.append(f"the multiplier is about {float(prod(slopes)):.9g}")
     return told
-
-
-JUDGES = {
-    "AllStick": all_stick,
-    "AtRest": at_rest,
-    "Leaves": leaves,
-    "NeverSticks": never_sticks,
-    "OnlyTouches": only_touches,
-    "FlightsEnd": flights_end,
-    "ComesToRest": comes_to_rest,
-    "ReturningMotion": returning_motion,
-    "StickingMotion": sticking_motion,
-    "StableOrbit": stable_orbit,
-}

@@ -318,19 +318,3 @@ def border(view, rng):
     if not first == 0 < reached <= rests[0] == rests[1] < view.passes.epsilon:
         told.append("no border")
     return told
-
-
-JUDGES = {
-    "Border": border,
-    "Passes": passes,
-    "Separation": separation_arc,
-    "Lands": lands,
-    "NeverImpacts": never_impacts,
-    "Absorption": absorption,
-    "Sink": sink,
-    "LongTransients": long_transients,
-    "TouchingFamily": touching_family,
-    "SuperstableMotion": superstable_motion,
-    "StableCycle": stable_cycle,
-    "TwoAttractors": two_attractors,
-}

@@ -157,6 +157,3 @@ def meeting(view, rng):
     side, p, _ = grazing(view.curve.n, float(view.curve.epsilon), eta)
     nu = amplitude(view.curve.n, float(view.curve.epsilon), eta, p, side)
     return told if inside(nu, view.amplitude, 1e-9) else [*told, f"nu is {nu}"]
-
-
-JUDGES = {"Arc": arc, "GrazingCurve": grazing_curve, "Meeting": meeting}

@@ -179,12 +179,3 @@ def _told(env):
 def theorem(view, rng):
     """A text that follows from formulas, which are judged themselves: nothing to sample."""
     return [] if view.text else ["no text"]
-
-
-JUDGES = {
-    "Equal": equal,
-    "Series": series,
-    "Expressions": expressions,
-    "Value": value,
-    "Theorem": theorem,
-}

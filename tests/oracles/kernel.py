@@ -373,17 +373,3 @@ def _closed(edges, rng, most=2):
         (e, f) for e, f in product(edges, repeat=2) if e[1] == f[0] and f[1] == e[0] and e < f
     ]
     return rng.sample(paths, min(most, len(paths)))
-
-
-JUDGES = {
-    "Zero": zero,
-    "UniqueZero": unique_zero,
-    "Image": image,
-    "PeriodicOrbit": periodic_orbit,
-    "PeriodicOrbits": periodic_orbits,
-    "HSet": h_set,
-    "Covers": covers,
-    "Graph": graph,
-    "Entropy": entropy,
-    "Conjugacy": conjugacy,
-}

@@ -222,14 +222,3 @@ def narrow(view, rng):
         if low > view.grazes[0].phases[0] or high < view.grazes[view.full].phases[1]:
             told.append(f"piece {m} is not mapped over the first {view.full}")
     return told
-
-
-JUDGES = {
-    "Between": narrow,
-    "Cycles": cycles,
-    "Expansion": expansion,
-    "Coding": coding,
-    "Grazing": grazing,
-    "Pieces": pieces,
-    "EntropyRange": entropy_range,
-}

@@ -215,10 +215,15 @@ class Impact:
 
     def turned(self, turns):
         """The phase on the line, less a number of turns, as a ball."""
-        return self.lifted - turns * two_pi()
+        with flint.ctx.workprec(PRECISION):
+            return self.lifted - turns * two_pi()
 
     def derivative(self):
         """DF by implicit differentiation of (14), (15): rows (phase, gamma) by (phi, gamma)."""
+        with flint.ctx.workprec(PRECISION):
+            return self._derivative()
+
+    def _derivative(self):
         g, e, t = self.gap, self.epsilon, self.time
         s, c = (g.eta * t).sin(), (g.eta * t).cos()
         rise, turned = g.nu * g.phi.cos(), -g.nu / g.eta * (1 + e) * g.phi.sin()

@@ -419,16 +419,3 @@ def itinerary(view, rng):
                 if any(where) or int(place) != word[k]:
                     told.append(f"f^{k} of the phase, {float(phase):.12g}, is elsewhere")
         return told
-
-
-JUDGES = {
-    "FirstImpact": first_impact,
-    "Impact": point,
-    "SlopeRange": slope_range,
-    "Avoids": avoids,
-    "Branch": branch,
-    "EntropyBound": entropy_bound,
-    "StayingSet": staying_set,
-    "ImageArc": image_arc,
-    "Itinerary": itinerary,
-}

@@ -272,16 +272,3 @@ def edge_image(view, rng):
         elif found is not None and not inside_mod(found.lifted, view.image):
             told.append(f"the phase after the edge is {found.phase:.12g}")
     return told
-
-
-JUDGES = {
-    "Differential": differential,
-    "Rectangle": rectangle,
-    "Horseshoe": horseshoe,
-    "BarredWord": barred_word,
-    "RectangleHorseshoe": rectangle_horseshoe,
-    "HorseshoeFamily": horseshoe_family,
-    "GoldenMean": golden_mean,
-    "Hyperbolic": hyperbolic,
-    "EdgeImage": edge_image,
-}

@@ -310,19 +310,3 @@ def _dimension(eigenvalue):
         middle = (low + high) / 2
         low, high = (middle, high) if eigenvalue(middle) > 1 else (low, middle)
     return low
-
-
-JUDGES = {
-    "MoranRoot": moran_root,
-    "NoGap": no_gap,
-    "Digits": digits,
-    "ExactMeasure": exact_measure,
-    "LinearDimension": linear_dimension,
-    "Excess": excess,
-    "ShortGap": short_gap,
-    "Uncovered": exact_measure,  # of which it is a consequence of the names alone
-    "InvariantSet": invariant_set,
-    "Repeller": repeller,
-    "StayingDimension": staying_dimension,
-    "ThinShift": thin_shift,
-}

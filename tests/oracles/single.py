@@ -198,11 +198,3 @@ def contracting_but_none(eta, nu, periods):
             if abs(slope18(eta, nu, n, phi)) < 1 and is_orbit(eta, nu, n, phi) is False:
                 return True
     return False
-
-
-JUDGES = {
-    "Solution": solution,
-    "EtaWindows": eta_windows,
-    "BelowWindows": below_windows,
-    "NuWindows": nu_windows,
-}

@@ -59,6 +59,3 @@ def stable_singles(view, rng):
         if count not in (None, int(n in view.stable)):
             told.append(f"{count} stable orbits for n = {n}")
     return told
-
-
-JUDGES = {"StableSingles": stable_singles}

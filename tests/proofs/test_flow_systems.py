@@ -36,6 +36,7 @@ IMPACTS = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "state", "wall"), IMPACTS, ids=[x[0] for x in IMPACTS])
 def test_the_flow_agrees_with_the_closed_form(name, state, wall):
     file = file_of(name)
@@ -80,6 +81,7 @@ def test_floating_point_follows_the_same_flow(name):
             )
 
 
+@pytest.mark.slow
 def test_orbits_are_found_and_stay_small():
     theorem = System.example("van-der-pol").orbits(1)
     assert [each.stability for each in theorem] == ["attracting"]
@@ -110,6 +112,7 @@ def test_what_is_wrong_is_a_sentence(change, message):
     assert message in str(caught.value) and "\n" not in str(caught.value)
 
 
+@pytest.mark.slow
 def test_what_cannot_be_followed_is_a_sentence():
     van_der_pol = file_of("van-der-pol")
     motion = {"x": {"equation": "x'' = x^2 + x'^2 + 1", "start": ["a", "0"]}}

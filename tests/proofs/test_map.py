@@ -2,12 +2,8 @@
 
 import json
 import math
-import os
-import subprocess
-import sys
 import time
 from fractions import Fraction
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -145,6 +141,7 @@ def test_fixed_points_of_the_bouncing_ball():
         assert v == pytest.approx(0.1 * math.pi * turns) and math.cos(phi) == pytest.approx(v / 3)
 
 
+@pytest.mark.slow
 def test_the_next_impact_of_the_bouncing_ball():
     phi, v, h = 1.02, 1.57, 1e-5
     t = np.arange(1, 10**7) * h
@@ -173,6 +170,7 @@ def test_a_horseshoe_of_the_bouncing_ball():
     assert (entropy.growth, entropy.length) == (2, 1) and not cone.forward
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "state", "told"),
     [
@@ -187,6 +185,7 @@ def test_what_happens_instead_of_an_impact_is_said_with_the_next_step(name, stat
     assert "give" in str(reason.value) and "\n" not in str(reason.value)
 
 
+@pytest.mark.slow
 def test_orbits_with_two_walls():
     walls = System.example("two-walls")
     (found,) = accepted(walls.orbits(1))
@@ -280,6 +279,7 @@ def test_the_time_is_over(capsys):
     assert said.count("stopped after 0.7 seconds, as asked") == 2 and "points at random" not in said
 
 
+@pytest.mark.slow
 def test_effort_is_how_much_is_looked_at():
     few, many = System.example("bouncing-ball"), System.example("bouncing-ball")
     few.effort, many.effort = 1, 3
@@ -292,29 +292,3 @@ def test_many_theorems_are_counted():
         f"- and {len(theorem) - 3} more of this kind, in the certificate"
     )
     assert str(theorem).count("- exactly one") == len(theorem) > 3
-
-
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        [],
-        ["--map", "x", "--effort", "0"],
-        ["--map", "x", "--seconds", "soon"],
-        ["nowhere.toml"],
-        ["--example", "none"],
-        ["--map", "2x"],
-        ["--map", "x", "--ask", "orbits:0"],
-        ["--map", "x", "--set", "r"],
-        ["--map", "x", "--box", "x=1"],
-        ["--map", "x", "--box", "y=0:1"],
-        ["--map", "x", "--example", "wall"],
-        ["--map", "x/2", "--figure"],
-    ],
-)
-def test_bad_input_is_one_line_and_status_2(arguments, tmp_path):
-    command = [sys.executable, "-m", "proofs", "system", *arguments]
-    where = {**os.environ, "PYTHONPATH": str(Path(proofs.__file__).parents[1])}
-    done = subprocess.run(
-        command, cwd=tmp_path, env=where, capture_output=True, text=True, check=False
-    )
-    assert (done.returncode, done.stdout) == (2, "") and done.stderr.count("\n") == 1

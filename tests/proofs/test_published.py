@@ -9,26 +9,24 @@ import pytest
 
 from proofs.commands.published import published
 from proofs.commands.published_page import FOLDER, INDEX, index, page, theorem
+from tests.once import once
 
 ROOT = Path(__file__).parents[2]
 PAGES = {each.name: each for each in published()}
 FILES = [(name, file) for name, each in PAGES.items() for file in each.asked]
 LARGEST = 1_500_000
-
-
 CURVES = "branches", "folds", "flips"
 
 
-@pytest.fixture(scope="module")
-def theorems():
-    return lambda name: {
-        file: theorem(ROOT / FOLDER / name / f"{file}.json") for file in PAGES[name].asked
-    }
+@once
+def theorems(name):
+    """What the checker concludes from a system's certificates: one that it rejects raises."""
+    return {file: theorem(ROOT / FOLDER / name / f"{file}.json") for file in PAGES[name].asked}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", PAGES)
-def test_a_page_says_what_its_certificates_conclude(name, theorems):
-    """`theorem` is the checker's: a certificate that it rejects raises."""
+def test_a_page_says_what_its_certificates_conclude(name):
     proved = theorems(name)
     text = (ROOT / FOLDER / f"{name}.md").read_text()
     assert text == page(PAGES[name], proved)
@@ -74,5 +72,5 @@ def test_nothing_else_is_there_and_it_is_small():
 
 
 @pytest.mark.slow
-def test_the_index_is_current(theorems):
+def test_the_index_is_current():
     assert (ROOT / INDEX).read_text() == index([(PAGES[name], theorems(name)) for name in PAGES])

@@ -118,7 +118,13 @@
   });
   addEventListener("hashchange", follow);
   addEventListener("beforeprint", () => {
-    for (const each of document.querySelectorAll("details")) each.open = true;
+    for (const each of document.querySelectorAll("details:not(.more)")) each.open = true;
+    for (const math of document.querySelectorAll(".line math")) {
+      math.style.fontSize = `${Math.min(0.85, 600 / math.getBoundingClientRect().width)}em`;
+    }
+  });
+  addEventListener("afterprint", () => {
+    for (const math of document.querySelectorAll(".line math")) math.style.fontSize = "";
   });
   filter();
   follow();

@@ -40,7 +40,7 @@ from proofs.trusted.kernel.section import Gap, Journey, Section, hulls
 from proofs.trusted.kernel.trees import At, Derivative, Operation, Tree, Variable, read_tree
 
 _MOST_STATES, _MOST_CROSSINGS, _MOST_GAPS = 8, 100, 6
-_KEPT = 16  # boxes with their values and derivatives
+_KEPT = 512  # boxes with their values and derivatives: all of a tree, for the next arrow
 _GUARD = 64  # bits of the width of a box
 _DIRECTIONS = ("+", "-")
 

@@ -105,8 +105,10 @@ def horseshoe(context: Context, reader: Reader) -> Horseshoe:
     )
 
 
-def read_rectangles(context: Context, names: Reader, most: int = _MOST) -> list[Rectangle]:
+def read_rectangles(
+    context: Context, names: Reader, least: int = 1, most: int = _MOST
+) -> list[Rectangle]:
     """Read the names of rectangle steps that obey hypothesis 1 of `horseshoe`."""
-    rectangles = [context.step(name, Rectangle) for name in names.items(1, most)]
+    rectangles = [context.step(name, Rectangle) for name in names.items(least, most)]
     require_together(rectangles)
     return rectangles

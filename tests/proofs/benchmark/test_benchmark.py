@@ -55,18 +55,6 @@ def test_the_status_is_0_if_all_that_is_asked_is_reached(monkeypatch, row, statu
     assert main([]) == status
 
 
-BAD = ["--nonsense", "--quick --full", "circles", "--json {0}/file/x.json", "--out {0}/file"]
-
-
-@pytest.mark.parametrize("arguments", BAD)
-def test_bad_usage_exits_2_before_measuring(monkeypatch, tmp_path, arguments):
-    measured(monkeypatch)
-    (tmp_path / "file").write_text("")
-    with pytest.raises(SystemExit) as stopped:
-        main(arguments.format(tmp_path).split())
-    assert stopped.value.code == 2
-
-
 def test_a_missing_interpreter_is_refused_and_help_has_examples(tmp_path, capsys):
     assert main(["limit", "--codac-python", str(tmp_path / "python")]) == 2
     assert "no such interpreter" in capsys.readouterr().err

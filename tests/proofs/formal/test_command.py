@@ -173,13 +173,6 @@ def test_the_theory_is_compiled_once(pretended, tmp_path):
     assert told == ["coqc Graph.v, theory"]
 
 
-@pytest.mark.parametrize("arguments", [[], [str(PAPER), "--arithmetic"]])
-def test_a_certificate_or_the_arithmetic(capsys, arguments):
-    with pytest.raises(SystemExit) as left:
-        formal.main(arguments)
-    assert left.value.code == 2 and "a certificate is expected" in capsys.readouterr().err
-
-
 @needs_coqc
 @pytest.mark.slow
 def test_the_checker_s_arithmetic(capsys, tmp_path):

@@ -253,11 +253,12 @@ def drawn(rng):
 
 @needs_coqc
 @pytest.mark.slow
-def test_of_hundreds_of_graphs_coq_accepts_those_that_are_true(theory):
+@pytest.mark.parametrize("count", [80, pytest.param(400, marks=pytest.mark.long)])
+def test_of_many_graphs_coq_accepts_those_that_are_true(theory, count):
     """Ends moved, arrows left: true exactly where all arrows are covering relations."""
     rng = random.Random(20)
     cases = []
-    for _ in range(400):
+    for _ in range(count):
         ends = drawn(rng)
         arrows = rng.sample(ALL, rng.randint(1, 4))
         cells = [tuple(Fraction(end, 100) for end in cell) for cell in ends]
@@ -275,7 +276,7 @@ def test_of_hundreds_of_graphs_coq_accepts_those_that_are_true(theory):
     )
     said = re.findall(r"true|false", output.partition("= [")[2].partition("]")[0])
     assert said == [str(truth).lower() for _, _, truth in cases]
-    assert said.count("false") >= 200 and said.count("true") > 50
+    assert said.count("false") >= count / 2 and said.count("true") > count / 8
 
 
 # edits of what is stated, the data that Coq computes with left as they are, and the other way round

@@ -10,9 +10,7 @@ ball (phi + v, alpha v - gamma cos(phi + v)) has its saddle-nodes at gamma = 2 n
 its flips at gamma = 2 sqrt(n^2 pi^2 (1 - alpha)^2 + (1 + alpha)^2).
 """
 
-import json
 from fractions import Fraction
-from functools import cache
 from itertools import product
 
 import pytest
@@ -21,14 +19,14 @@ from mpmath import mp, mpc, mpf
 
 from intervals import Undecided
 from proofs.methods import derive
-from proofs.methods.bifurcation.certify import enclosure, prove_jacobian
+from proofs.methods.bifurcation.certify import enclosure
 from proofs.methods.bifurcation.classify import meaning
 from proofs.methods.bifurcation.closed import closed
 from proofs.methods.bifurcation.maps import Map, formula
 from proofs.methods.bifurcation.normal_forms import NormalForm
 from proofs.methods.lemmas import Lemmas
 from proofs.trusted.files import render
-from proofs.trusted.verify import Rejected, check
+from proofs.trusted.verify import check
 
 LOGISTIC = ("x1 = r*x*(1 - x)",)
 RICKER = ("x1 = a*x*exp(-x)",)
@@ -184,6 +182,7 @@ def test_what_a_candidate_is(condition, lines, wanted):
         assert found[place].kept or found[place].found.why
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("root", ["1/2", "-3", "7/5"])
 @pytest.mark.parametrize(
     ("lines", "names"),
@@ -237,6 +236,7 @@ def test_on_which_side_it_is_by_counting(condition, line, side):
     assert here != there and (here > there) is ("greater" in side)
 
 
+@pytest.mark.slow
 def test_closed_forms_and_enclosures_agree():
     """The real multipliers 3 + 2 sqrt(2), 3 - 2 sqrt(2) are none either way; the fold is one."""
     lines = ("x1 = y", "y1 = -b*x + y^2 + x*y")
@@ -249,6 +249,7 @@ def test_closed_forms_and_enclosures_agree():
     assert found.signs == near.signs and found.found.kind == "fold"
 
 
+@pytest.mark.slow
 def test_what_depends_on_parameters_is_a_condition():
     (flip,) = candidates("flip", ("x", "y", "a"), *HENON)
     assert flip.found.kind == "flip" and "critical is not 0" in flip.found.where
@@ -368,49 +369,6 @@ def test_coefficients_by_the_projection_method(case):
 
 
 # -- what is refused -------------------------------------------------------------------------------
-
-
-@cache
-def proof(kind, names, *lines):
-    file = Lemmas()
-    prove_jacobian(file, Map.read(*lines))
-    closed(file, NormalForm(Map.read(*lines), kind), names)
-    return render(file.document())
-
-
-def document_of(*asked):
-    return json.loads(proof(*asked))
-
-
-@pytest.mark.parametrize(
-    ("name", "text"),
-    [("b2", "-2"), ("r", "2"), ("x", "1/3"), ("b3", "1"), ("critical", "8"), ("speed", "1")],
-)
-def test_the_checker_refuses_other_coefficients(name, text):
-    document = document_of("flip", ("x", "r"), *LOGISTIC)
-    step = document["steps"]["solution-2"]["witness"]
-    assert step["expressions"][name] != text
-    step["expressions"][name] = text
-    with pytest.raises(Rejected):
-        check(render(document))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("place", range(20))
-def test_the_checker_refuses_any_other_coefficient_of_a_circle(place):
-    document = document_of("neimark_sacker", ("x", "y", "r"), *DELAYED)
-    expressions = document["steps"]["solution-1"]["witness"]["expressions"]
-    expressions[list(expressions)[place]] = "7/5"
-    with pytest.raises(Rejected):
-        check(render(document))
-
-
-def test_the_checker_refuses_another_jacobian():
-    document = document_of("flip", ("x", "r"), *LOGISTIC)
-    text = document["steps"]["equal-1"]["witness"]["left"]
-    document["steps"]["equal-1"]["witness"]["left"] = text.replace("(2*x - 1)", "(2*x - 2)")
-    with pytest.raises(Rejected):
-        check(render(document))
 
 
 @pytest.mark.slow

@@ -86,12 +86,3 @@ def test_the_command(tmp_path, capsys):
     assert main([*own, "--ask", "branches:r=2:4"]) == 0
     assert "the graph of a smooth function of `r` in [2, 4]" in capsys.readouterr().out
     assert check((tmp_path / "branches-r-2-4.json").read_text()).conclusions
-    for wrong in (
-        "branches",
-        "branches:r=2",
-        "folds:r=2:4",
-        "branches:r=2:4,q=1:2",
-        "flips:r=2:4,q=1:2",
-    ):
-        with pytest.raises(SystemExit, match="2"):
-            main([*own, "--ask", wrong])

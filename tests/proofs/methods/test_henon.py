@@ -5,7 +5,6 @@ in it are those of Galias, Interval methods for rigorous investigations of perio
 Int. J. Bifurcation Chaos 11 (2001).
 """
 
-import json
 from fractions import Fraction
 from functools import cache
 from itertools import pairwise
@@ -19,11 +18,11 @@ from proofs.methods.lemmas import Lemmas
 from proofs.methods.periodic import periodic_orbits
 from proofs.methods.rectangles import lemma, rectangles
 from proofs.methods.symbolic import SymbolicLemmas
-from proofs.trusted.certificate import Malformed, Reader
+from proofs.trusted.certificate import Reader
 from proofs.trusted.files import render
 from proofs.trusted.kernel import trees
 from proofs.trusted.kernel.head import read_function
-from proofs.trusted.verify import Rejected, check
+from proofs.trusted.verify import check
 from tests.proofs.trusted.kernel.lemma_examples import Written, henon
 
 HENON = henon("7/5", "3/10")
@@ -226,33 +225,3 @@ def test_sets_around_cycles():
 def test_more_sets_around_cycles():
     _, low, high = entropy(by_cycles(23, angle=0.15, past=4, future=10, spare=0.01))
     assert Fraction("0.4562") < low < high < Fraction("0.46469")
-
-
-@pytest.mark.parametrize(
-    ("step", "name", "value"),
-    [
-        ("entropy-1", "growth", "361110"),
-        ("entropy-1", "length", "20"),
-        ("covers-1", "power", "1"),
-        ("covers-3", "support", None),
-        ("covers-3", "target", "h-set-3"),
-        ("h-set-1", "centre", ["0.2", "0.2266"]),
-        ("h-set-2", "matrix", [["53/1000", "163/2500"], ["-69/5000", "379/5000"]]),
-        ("h-set-4", "centre", ["-0.7", "0.3112"]),
-    ],
-)
-def test_edited_horseshoes_are_refused(step, name, value):
-    document = json.loads(horseshoe())
-    assert document["steps"][step]["witness"][name] != value
-    document["steps"][step]["witness"][name] = value
-    with pytest.raises((Rejected, Malformed)):
-        check(json.dumps(document))
-
-
-@pytest.mark.parametrize("number", range(1, 8))
-def test_orientations_are_not_free(number):
-    document = json.loads(horseshoe())
-    witness = document["steps"][f"covers-{number}"]["witness"]
-    witness["sign"] = {"+": "-", "-": "+"}[witness["sign"]]
-    with pytest.raises(Rejected, match=f"covers-{number}"):
-        check(json.dumps(document))

@@ -10,80 +10,43 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mpmath import mp, mpf
 
-from intervals import Interval, IntervalArray, Undecided
-from proofs.methods.horseshoes import full_horseshoe
-from proofs.methods.orbits import corrections, find_points, isolate, periodic_points, refine
+from intervals import Interval, Undecided
+from proofs.methods.orbits import corrections, find_points, periodic_points
 from proofs.methods.words import Words
 
 
 @dataclass
 class Pieces:
-    """A map given by a formula and its derivative on each domain, for every number type."""
+    """A map given by a formula and its derivative on each domain, for floats and intervals."""
 
     domains: tuple
     expansion: Fraction
     formulas: list
     derivatives: list
 
-    def all(self, functions, symbols, x):
-        value = functions[0](x)
-        for j, function in enumerate(functions[1:], start=1):
-            value = np.where(symbols == j, function(x), value)
-        return value
-
     def approximate(self, symbols, x):
-        slopes = self.all([lambda x, d=d: d(x) + 0.0 * x for d in self.derivatives], symbols, x)
-        return self.all(self.formulas, symbols, x), slopes
+        pairs = list(zip(symbols.tolist(), x.tolist(), strict=True))
+        values, slopes = ([fs[j](u) for j, u in pairs] for fs in (self.formulas, self.derivatives))
+        return np.array(values, float), np.array(slopes, float)
 
-    def defects(self, symbols, x, y):
-        at, to = IntervalArray.from_floats(x), IntervalArray.from_floats(y)
-        return self.all(self.formulas, symbols, at) - to
+    def defect(self, symbol, x, y):
+        return self.formulas[symbol](x) - y
 
-    def germs(self, symbols, boxes):
-        return PieceGerms(self, symbols, boxes)
-
-
-@dataclass
-class PieceGerms:
-    of: Pieces
-    symbols: np.ndarray
-    boxes: IntervalArray
-
-    @property
-    def slopes(self):
-        return self.slopes_at(self.boxes, None)
-
-    def defect(self, index, x, y):
-        return self.of.formulas[self.symbols[index]](x) - y
-
-    def slope(self, index, x, y):
-        return self.of.derivatives[self.symbols[index]](x) + 0 * x
-
-    def defects(self, x, y):
-        return self.of.all(self.of.formulas, self.symbols, x) - y
-
-    def slopes_at(self, x, y):
-        return self.of.all(self.of.derivatives, self.symbols, x) + 0 * x
+    def slope(self, symbol, x, y):
+        return self.derivatives[symbol](x) + 0 * x
 
 
 def affine(pieces, domains):
     """Pieces a x + b, exact."""
 
     def formula(a, b):
-        def f(x):
-            exact = not isinstance(x, np.ndarray)
-            return x * a + b if exact else float(a) * x + float(b)
-
-        return f
-
-    def derivative(a):
-        return lambda x: float(a) if isinstance(x, np.ndarray) else 0 * x + a
+        return lambda x: x * a + b if isinstance(x, Interval) else float(a) * x + float(b)
 
     return Pieces(
         tuple(domains),
         min(abs(a) for a, _ in pieces),
         [formula(a, b) for a, b in pieces],
-        [derivative(a) for a, _ in pieces],
+        [lambda x, a=a: 0 * x + a if isinstance(x, Interval) else float(a) for a, _ in pieces],
     )
 
 
@@ -102,7 +65,7 @@ THIRDS = [(Fraction(0), Fraction(1, 3)), (Fraction(2, 3), Fraction(1))]
 
 
 @pytest.mark.parametrize("pieces", [CANTOR, TENT], ids=["cantor", "tent"])
-@pytest.mark.parametrize("digits", [None, 1, 30])
+@pytest.mark.parametrize("digits", [1, 30])
 def test_affine_maps_have_rational_periodic_points(pieces, digits):
     for length in range(1, 8):
         found = periodic_points(affine(pieces, THIRDS), Words.of_length(length), digits)
@@ -111,7 +74,7 @@ def test_affine_maps_have_rational_periodic_points(pieces, digits):
             point, slope = exact(pieces, row.word)
             assert row.point[0] <= point <= row.point[1]
             assert row.multiplier[0] <= slope <= row.multiplier[1]
-            allowed = Fraction(1, 10 ** (14 if digits is None else digits))
+            allowed = Fraction(1, 10**digits)
             assert row.point[1] - row.point[0] <= allowed
             assert row.multiplier[1] - row.multiplier[0] <= abs(slope) * 10 * allowed
 
@@ -136,7 +99,7 @@ def covering_maps(draw):
 
 @pytest.mark.slow
 @settings(max_examples=60, deadline=None)
-@given(covering_maps(), st.integers(1, 4), st.sampled_from([None, 5, 40]))
+@given(covering_maps(), st.integers(1, 4), st.sampled_from([5, 40]))
 def test_any_affine_pieces_that_cover(drawn, length, digits):
     pieces, domains = drawn
     of = affine(pieces, domains)
@@ -152,8 +115,7 @@ def test_any_affine_pieces_that_cover(drawn, length, digits):
         assert row.point[1] <= high + Fraction(1, 10**12)
 
 
-LOGISTIC = full_horseshoe(lambda x: 5 * x * (1 - x), [("0", "0.2764"), ("0.7236", "1")])
-FIVE = Pieces(
+LOGISTIC = Pieces(
     ((Fraction(0), Fraction("0.2764")), (Fraction("0.7236"), Fraction(1))),
     Fraction("2.23"),
     [lambda x: 5 * x * (1 - x)] * 2,
@@ -190,7 +152,7 @@ def as_mpf(x):
     return mpf(x.numerator) / x.denominator
 
 
-@pytest.mark.parametrize("digits", [None, 25, 45])
+@pytest.mark.parametrize("digits", [25, 45])
 def test_the_logistic_map_by_inverse_branches(digits):
     for row in periodic_points(LOGISTIC, Words.of_length(6), digits):
         with mp.workdps(60):
@@ -201,51 +163,43 @@ def test_the_logistic_map_by_inverse_branches(digits):
                 multiplier, x = multiplier * (5 - 10 * x), 5 * x * (1 - x)
             low, high = map(as_mpf, row.multiplier)
             assert low - error <= multiplier <= high + error
-            assert high - low <= abs(multiplier) * mpf(10) ** -(digits or 12)
+            assert high - low <= abs(multiplier) * mpf(10) ** -digits
 
 
 def test_two_precisions_agree():
     words = Words.rotations("0010111")
-    found = isolate(FIVE, words)
-    rough, fine = (refine(FIVE, words, found, digits) for digits in (8, 60))
-    for binary, coarse, narrow in zip(found.points.tolist(), rough, fine, strict=True):
-        assert coarse.inf <= narrow.inf and narrow.sup <= coarse.sup
-        assert binary.inf <= narrow.inf and narrow.sup <= binary.sup
-        assert narrow.wid <= Fraction(1, 10**60)
+    rough, fine = (periodic_points(LOGISTIC, words, digits) for digits in (8, 60))
+    for coarse, narrow in zip(rough, fine, strict=True):
+        assert coarse.point[0] <= narrow.point[0] and narrow.point[1] <= coarse.point[1]
+        assert narrow.point[1] - narrow.point[0] <= Fraction(1, 10**60)
 
 
 def test_corrections_are_those_of_exact_arithmetic():
-    words = Words.of_length(3)
-    slopes = [Fraction(7, 2), Fraction(-5, 2)]
-    by_word = [slopes[int(text[0])] for text in words.texts]
-    defects = [Fraction((7 * i) % 5 - 2, 10**6) for i in range(8)]
-    found = corrections(words, IntervalArray(defects), IntervalArray(by_word))
-    for i in range(8):
-        a, b, index = Fraction(1), Fraction(0), i  # d(i) = a d(index) + b
-        for _ in range(3):
-            a, b = a / by_word[index], b - a / by_word[index] * defects[index]
-            index = int(words.following[index])
-        d = b / (1 - a)
-        assert found[i].item().inf <= d <= found[i].item().sup
-        assert found[i].item().wid <= Fraction(1, 10**20)
+    slopes = [Fraction(7, 2), Fraction(-5, 2), Fraction(3)]
+    defects = [Fraction((7 * i) % 5 - 2, 10**6) for i in range(3)]
+    enclosed = corrections(
+        *([Interval(x, precision=100) for x in each] for each in (defects, slopes))
+    )
+    for i in range(3):
+        a, b = Fraction(1), Fraction(0)  # d(i) = a d(i + k) + b
+        for k in (i, i + 1, i + 2):
+            a, b = a / slopes[k % 3], b - a / slopes[k % 3] * defects[k % 3]
+        assert enclosed[i].contains(b / (1 - a)) and enclosed[i].wid <= Fraction(1, 10**20)
 
 
 def test_without_expansion_nothing_is_proved():
-    words = Words.of_length(1)
-    zero = IntervalArray([0, 0])
-    with pytest.raises(Undecided, match="expand"):
-        corrections(words, zero, IntervalArray([(1, 2), 3]))
-    with pytest.raises(Undecided, match="expand"):
-        corrections(words, zero, IntervalArray([(-2, 2), 3]))
+    for slopes in ([Interval(1, 2), Interval(3)], [Interval(-2, 2), Interval(3)]):
+        with pytest.raises(Undecided, match="expand"):
+            corrections([Interval(0)] * 2, slopes)
 
 
 def test_a_map_that_is_known_roughly_is_undecided():
     noise = Interval(Fraction(-1, 10**18), Fraction(1, 10**18))
     rough = Pieces(
-        FIVE.domains,
-        FIVE.expansion,
+        LOGISTIC.domains,
+        LOGISTIC.expansion,
         [lambda x: 5 * x * (1 - x) + (noise if isinstance(x, Interval) else 0)] * 2,
-        FIVE.derivatives,
+        LOGISTIC.derivatives,
     )
     with pytest.raises(Undecided, match="known to"):
         periodic_points(rough, Words.of_length(2), 30)
@@ -254,18 +208,17 @@ def test_a_map_that_is_known_roughly_is_undecided():
 def test_multipliers_that_are_known_roughly_are_undecided():
     about = Interval(1 - Fraction(1, 10**18), 1 + Fraction(1, 10**18))
     rough = Pieces(
-        FIVE.domains,
-        FIVE.expansion,
-        FIVE.formulas,
+        LOGISTIC.domains,
+        LOGISTIC.expansion,
+        LOGISTIC.formulas,
         [lambda x: (5 - 10 * x) * (about if isinstance(x, Interval) else 1)] * 2,
     )
     assert periodic_points(rough, Words.of_length(2), 15)
-    with pytest.raises(Undecided, match="multipliers"):
+    with pytest.raises(Undecided, match="known to"):
         periodic_points(rough, Words.of_length(2), 20)
 
 
-def test_poor_candidates_make_wide_boxes():
-    """Candidates lie in the domains, exactly, and the boxes reach the true points from them."""
+def test_poor_candidates_lie_in_the_domains_and_the_points_are_found_from_them():
     pieces = [(Fraction(3, 2), Fraction(-1, 20)), (Fraction(3), Fraction(-2))]
     domains = [(Fraction(1, 10), Fraction(7, 10)), (Fraction(7, 10), Fraction(1))]
     of = affine(pieces, domains)
@@ -275,17 +228,19 @@ def test_poor_candidates_make_wide_boxes():
         approximate(symbols, x)[1],
     )
     words = Words.of_length(3)
-    x, boxes = find_points(of, words), isolate(of, words).boxes
-    for i, word in enumerate(words.texts):
-        low, high = domains[int(word[0])]
-        assert low <= Fraction(float(x[i])) <= high
-        assert boxes[i].item().inf <= exact(pieces, word)[0] <= boxes[i].item().sup
+    x, rows = find_points(of, words), periodic_points(of, words, 30)
+    for start, row in zip(x.tolist(), rows, strict=True):
+        low, high = domains[int(row.word[0])]
+        assert low <= Fraction(start) <= high
+        assert row.point[0] <= exact(pieces, row.word)[0] <= row.point[1]
 
 
 def test_no_candidates():
-    lost = Pieces(FIVE.domains, FIVE.expansion, [lambda x: x * float("nan")] * 2, FIVE.derivatives)
+    lost = Pieces(
+        LOGISTIC.domains, LOGISTIC.expansion, [lambda x: x * float("nan")] * 2, LOGISTIC.derivatives
+    )
     with pytest.raises(Undecided, match="no candidates"):
-        periodic_points(lost, Words.of_length(2))
+        periodic_points(lost, Words.of_length(2), 10)
 
 
 @pytest.mark.parametrize(("length", "alphabet"), [(1, "01"), (6, "01"), (12, "01"), (4, "012")])

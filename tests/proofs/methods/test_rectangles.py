@@ -68,6 +68,7 @@ def test_relations_that_are_not_proved_are_left_out():
         lemma(files[0], "F", Rectangles(*sets[:2], np.array(sorted(missing))[:1]))
 
 
+@pytest.mark.slow
 def test_what_is_refused():
     f, orbits = horseshoe()
     with pytest.raises(Undecided, match="no two words"):

@@ -9,6 +9,7 @@ from mpmath import mp, mpf
 from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
 from proofs.motion.transients import next_impacts, transients, until_rest
+from tests.oracles import motion
 from tests.proofs.trusted.paper import reference
 
 PAPER = System(Fraction("0.2121"), Fraction("-0.2"))
@@ -17,20 +18,10 @@ REST_TURNS = 4  # the period of the stable motion
 
 
 def flight(phase, kick):
-    """(time, speed) of the first impact by (14), side -1, by scanning and bisection."""
+    """(time, speed) of the first impact, by the oracle; the launch has side -1."""
     gamma = (-mpf(kick) - NU * mp.cos(phase)) / ETA
-
-    def gap(t):
-        return -reference.left_side_14(ETA, NU, 1, mpf(phase), gamma, t)
-
-    time = mpf("0.02")
-    while gap(time + mpf("0.02")) > 0:
-        time += mpf("0.02")
-    low, high = time, time + mpf("0.02")
-    for _ in range(80):
-        middle = (low + high) / 2
-        low, high = (middle, high) if gap(middle) > 0 else (low, middle)
-    return low, -mp.diff(gap, low)
+    found = motion.flight(PAPER.eta, PAPER.nu, *map(reference.exact, (phase, 1, gamma)))
+    return reference.number(found.time), reference.number(found.speed)
 
 
 def rest(epsilon, phase, speed, turns=200.0):

@@ -40,6 +40,7 @@ def test_all_questions_were_asked():
     assert [folder.name for folder in MADE] == names
 
 
+@pytest.mark.slow
 def test_a_small_one_is_there_as_a_whole():
     """On both sides of resonance and of the table at rest: every verdict, and the strip."""
     path = FOLDER / "across-resonance.jsonl"

@@ -174,6 +174,7 @@ def has_rows(path):
             return False
 
 
+@pytest.mark.slow
 def test_an_interrupt_says_that_all_is_saved_and_what_goes_on(tmp_path):
     process = start(tmp_path, 12, stderr=subprocess.PIPE, text=True)
     while process.poll() is None and not has_rows(tmp_path / NAME):
@@ -315,6 +316,7 @@ def small(tmp_path):
     return tmp_path
 
 
+@pytest.mark.slow
 def test_lines_of_what_there_is(small, capsys):
     """Also while cells are not looked at; what reads it are others' tables, too."""
     assert atlas.main(["--out", str(small), "--lines"]) == 0
@@ -410,33 +412,6 @@ def test_the_checker_reads_few_lines_ahead_keeps_their_order_and_adds_up_their_w
         assert meter.spent == 20_000
 
 
-@pytest.mark.parametrize(
-    ("arguments", "match"),
-    [
-        (["--eta", "0.3", "0.2", *SMALL[3:]], "eta: reversed or empty"),
-        (["--eta", "0.2", "0.2", *SMALL[3:]], "eta: reversed or empty"),
-        (["--eta", "0", "0.2", *SMALL[3:]], "eta must be positive"),
-        (SMALL[:6], "go together"),
-        ([*SMALL, "--depth", "41"], "depth"),
-        ([*SMALL, "--jobs", "0"], "--jobs"),
-        ([*SMALL, "--executor", "ssh:somewhere"], "dask:"),
-        ([], "there is no"),
-        ([*SMALL[:6], "--ask", "chaos"], "the question is one of attractor, horseshoe"),
-        ([*SMALL[:6], "--ask", "entropy:1"], "entropy:2 to entropy:50"),
-        ([*SMALL, "--epsilon", "0.3"], "plastic impacts alone"),
-        ([*SMALL[:6], "--ask", "orbits", "--epsilon", "0.3", "0.2"], "in [0, 1)"),
-        ([*SMALL[:6], "--ask", "orbits", "--epsilon", "1"], "in [0, 1)"),
-        ([*SMALL[:6], "--ask", "orbits", "--epsilon", "0", "0.1", "0.2"], "in [0, 1)"),
-        (["--epsilon", "0.1"], "go together"),
-    ],
-)
-def test_bad_input_is_one_line(arguments, match, tmp_path, capsys):
-    with pytest.raises(SystemExit) as left:
-        atlas.main([*arguments, "--out", str(tmp_path)])
-    said = capsys.readouterr().err
-    assert left.value.code == 2 and match in said and said.count("\n") == 1
-
-
 def test_orbits_with_restitution(tmp_path, capsys):
     asked = ["--eta", "0.59", "0.61", "--nu", "-0.76", "-0.74", "--ask", "orbits:3"]
     out = ["--depth", "1", "--out", str(tmp_path)]
@@ -449,23 +424,6 @@ def test_orbits_with_restitution(tmp_path, capsys):
     assert "another region" in capsys.readouterr().err
     assert atlas.main(["--out", str(tmp_path), "--cell", "0.6", "-0.75"]) == 0
     assert "epsilon = 0.3: there is exactly one stable" in capsys.readouterr().out
-
-
-@pytest.mark.parametrize(
-    "more",
-    [
-        ["--json", "NOWHERE/atlas.json"],
-        ["--lines", "--json", "-"],
-        ["--lines", "--cell", "0.2122", "-0.2"],
-    ],
-)
-def test_no_work_for_a_form_that_cannot_be_written(tmp_path, capsys, more, monkeypatch):
-    monkeypatch.setattr(atlas, "opened", None)
-    (tmp_path / "file").touch()
-    more = [each.replace("NOWHERE", str(tmp_path / "file")) for each in more]
-    with pytest.raises(SystemExit) as left:
-        atlas.main([*SMALL, "--out", str(tmp_path / "out"), *more])
-    assert left.value.code == 2 and capsys.readouterr().err.count("\n") == 1
 
 
 def test_another_region_in_the_same_folder_is_refused(tmp_path, capsys):

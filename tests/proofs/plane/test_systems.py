@@ -150,6 +150,3 @@ def test_the_command(tmp_path, capsys):
     assert areas.shares == {"VERIFIED": 1}
     assert main(["--out", str(tmp_path), "--cell", "5", "0.005"]) == 0
     assert "exactly one periodic orbit of least period 2" in capsys.readouterr().out
-    for wrong in (own, [*own, "--eta", "1", "2"], [*own[:-4], "--ask", "horseshoe"]):
-        with pytest.raises(SystemExit, match="2"):
-            main([*wrong, *out])

@@ -127,6 +127,7 @@ def test_markdown_has_every_statement_once_and_no_broken_link(found):
 UNSOURCED = {"", "def", "classical"}
 
 
+@pytest.mark.slow
 def test_every_sentence_of_the_theorem_has_a_tag_that_names_something(found):
     known = sources(found)
     for tag, text in template():
@@ -140,6 +141,7 @@ def test_a_sentence_without_a_tag_is_refused(monkeypatch):
         template()
 
 
+@pytest.mark.slow
 def test_numbers_of_the_theorem_are_those_of_the_conclusions_that_they_render(found):
     """Those written by hand; definitions and rules have none but those of the oscillator."""
     known = sources(found)

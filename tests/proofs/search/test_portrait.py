@@ -7,17 +7,8 @@ from itertools import pairwise
 import pytest
 
 from proofs.motion.system import System
-from proofs.search.portrait import (
-    FALLS,
-    FLIES,
-    RISES,
-    STICKS,
-    TOUCHES,
-    fates,
-    rebounding_fates,
-    rows,
-    stretches,
-)
+from proofs.search.orbits import FALLS, FLIES, RISES, STICKS, TOUCHES
+from proofs.search.portrait import fates, rebounding_fates, rows, stretches
 from tests.oracles.motion import Impact, flight
 
 F = Fraction
@@ -77,6 +68,7 @@ def test_what_sticks_is_followed_from_the_separation(eta, nu, name):
     assert first.name == name and first.share > 0.9
 
 
+@pytest.mark.slow
 def test_soft_touches_are_no_stable_orbits():
     """Resonance: by R9 all motions tend to grazing ones; eta = 20 also repeats after one turn."""
     for eta in ("1", "20"):

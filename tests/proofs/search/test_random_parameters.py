@@ -98,6 +98,7 @@ def contradictions(of):
         yield f"resonance: all motions tend to grazing ones; explore: {said}"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [1, 2, pytest.param(3, marks=pytest.mark.long)])
 def test_no_two_commands_contradict_each_other(seed):
     told = []

@@ -1,16 +1,17 @@
-"""`python -m proofs impact --epsilon --gamma`: F and DF against the printed (14) and (15)."""
+"""`python -m proofs impact --epsilon --gamma`: F and DF against the oracle's."""
 
 import json
+import math
 import random
 from fractions import Fraction
 
 import pytest
-from mpmath import mp, mpf
 
 from proofs.commands import impact
 from proofs.motion.system import System
 from proofs.search.rebound import Impossible, rebound
-from tests.proofs.trusted.paper import reference
+from tests.intervals.oracle import ends
+from tests.oracles.motion import flight, next_impact
 
 AT = ["--eta", "0.2121", "--nu", "-0.2"]
 
@@ -20,31 +21,11 @@ def answer(capsys, *arguments):
     return json.loads(capsys.readouterr().out)
 
 
-def printed(eta, nu, epsilon, phi, gamma, horizon=60):
-    """(time, phase, velocity) by a scan of (14) for its first sign change, then (15)."""
-    side = 1 if nu > 0 else -1
-
-    def gap(t):
-        return side * reference.left_side_14(eta, nu, epsilon, phi, gamma, t)
-
-    step = mpf("0.01")
-    time = step
-    while gap(time + step) > 0:
-        time += step
-        assert time < horizon
-    low, high = time, time + step
-    for _ in range(150):
-        middle = (low + high) / 2
-        low, high = (middle, high) if gap(middle) > 0 else (low, middle)
-    velocity = reference.right_side_15(eta, nu, epsilon, phi, gamma, low)
-    return low, (phi + low) % (2 * mp.pi), velocity
-
-
-def within(bounds, value, slack="1e-40"):
+def within(bounds, value):
+    """Whether a number of the oracle's can be in bounds."""
     low, high = (Fraction(bounds[side]) for side in ("lower", "upper"))
-    slack = mpf(slack)
-    below, above = (mpf(end.numerator) / end.denominator for end in (low, high))
-    return below - slack <= value <= above + slack
+    least, most = ends(value)
+    return low <= most and least <= high
 
 
 @pytest.mark.parametrize(
@@ -57,22 +38,13 @@ def within(bounds, value, slack="1e-40"):
 )
 def test_a_point_agrees_with_the_printed_equations(phi, epsilon, gamma, capsys):
     found = answer(capsys, "--phi", phi, "--epsilon", epsilon, "--gamma", gamma)
-    state = [mpf("0.2121"), mpf("-0.2"), mpf(epsilon), mpf(phi), mpf(gamma)]
-    time, phase, velocity = printed(*state)
-    assert within(found["flight"], time) and within(found["phase"], phase)
-    assert within(found["velocity"], velocity)
+    true = flight(*map(Fraction, ("0.2121", "-0.2", phi, epsilon, gamma)))
+    assert within(found["flight"], true.time) and within(found["velocity"], true.velocity)
+    assert within(found["phase"], true.turned(float(true.lifted) // math.tau))
     assert found["sticking"] is False and "slope" not in found
     assert (found["epsilon"], found["gamma"]) == (epsilon, [gamma])
-    h = mpf("1e-15")
-    for column, index in enumerate((3, 4)):
-        ends = []
-        for sign in (1, -1):
-            moved = list(state)
-            moved[index] += sign * h
-            ends.append(printed(*moved))
-        for row in (0, 1):
-            slope = (ends[0][row + 1] - ends[1][row + 1]) / (2 * h)
-            assert within(found["jacobian"][row][column], slope, "1e-20")
+    for entries, row in zip(found["jacobian"], true.derivative(), strict=True):
+        assert all(map(within, entries, row))
 
 
 def test_digits_are_certified(capsys):
@@ -91,9 +63,10 @@ def test_a_box_contains_the_images_of_its_points(capsys):
     found = answer(capsys, "--phi", "1.11", "1.12", "--epsilon", "0.01", "--gamma", "-0.3", "-0.25")
     generator = random.Random(3)
     for _ in range(3):
-        phi, gamma = mpf(generator.uniform(1.11, 1.12)), mpf(generator.uniform(-0.3, -0.25))
-        _, phase, velocity = printed(mpf("0.2121"), mpf("-0.2"), mpf("0.01"), phi, gamma)
-        assert within(found["phase"], phase) and within(found["velocity"], velocity)
+        phi, gamma = generator.uniform(1.11, 1.12), generator.uniform(-0.3, -0.25)
+        true = flight(*map(Fraction, ("0.2121", "-0.2", phi, "0.01", gamma)))
+        assert within(found["phase"], true.turned(float(true.lifted) // math.tau))
+        assert within(found["velocity"], true.velocity)
     (width,) = (Fraction(found["phase"]["upper"]) - Fraction(found["phase"]["lower"]),)
     assert width < Fraction("0.06")
 
@@ -106,10 +79,7 @@ def test_epsilon_0_is_the_plastic_map(capsys):
     assert found["jacobian"][0][1] == {"lower": "0", "upper": "0"}
     stuck = answer(capsys, "--phi", "5", "--epsilon", "0", "--gamma", "-0.3")
     assert stuck["sticking"] is True and set(stuck["dwell"]) == {"lower", "upper"}
-    leave = reference.separation_phase(mpf("0.2121"), mpf("-0.2"))
-    time, _ = reference.first_impact(mpf("0.2121"), mpf("-0.2"), leave)
-    velocity = reference.right_side_15(mpf("0.2121"), mpf("-0.2"), 0, leave, 0, time)
-    assert within(stuck["velocity"], velocity, "1e-25")
+    assert within(stuck["velocity"], next_impact(Fraction("0.2121"), Fraction("-0.2"), 5).velocity)
 
 
 def test_for_people(capsys):

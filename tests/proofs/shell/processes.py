@@ -29,11 +29,10 @@ QUICK = {  # arguments with which a command prints something soon; another one p
     "impact": [*AT, "--phi", "1.11"],
     "ledger": ["--only", "H16", "S22"],
     "nonplastic": ["--only", "N1", "N2"],
-    "orbits": ["--word", "01", "--fast"],
-    "period_doubling": [],
+    "orbits": ["--word", "01"],
     "entropy": ["--only", "H18"],
     "persistence": ["--only", "G8"],
-    "resonance": ["--nu", "-0.2", "--epsilon", "0.5", "--phi", "1", "--gamma", "-0.3"],
+    "resonance": ["--only", "R1"],
     "sets": ["--only", "H12"],
     "single": ["--only", "P1"],
     "single_impact": [*AT, "--n", "4"],
@@ -56,7 +55,7 @@ LENGTHY = {  # that take seconds, some in processes of their own
     "stress": ["--cases", "100000"],
 }
 WRITES = {*COMMANDS} - {"benchmark", "check", "__main__", "stress"}
-WRITES -= {"atlas", "impact", "orbits", "period_doubling", "resonance", "single_impact"}
+WRITES -= {"atlas", "impact", "orbits", "single_impact"}
 
 
 def started(name, arguments, **streams):

@@ -1,24 +1,23 @@
-"""Bad input to the commands that answer a question: one line, status 2, nothing written."""
+"""Bad input to the commands: one line, status 2, nothing written."""
 
 import os
 import shlex
 from functools import partial
-from importlib import import_module
 from time import perf_counter
 
 import pytest
 
+from proofs.__main__ import main
 from proofs.commands import (
     atlas,
     bifurcation,
     impact,
     orbits,
-    period_doubling,
-    resonance,
     single_impact,
 )
 from proofs.commands.groups import GROUPS
 from proofs.search import periodic
+from proofs.shell.entry import guarded
 from proofs.shell.runner import run
 
 
@@ -29,7 +28,7 @@ class Row:
         self.__name__, self.main = f"proofs.{name}", partial(run, GROUPS[name])
 
 
-foundations, single, soft = map(Row, ("foundations", "single", "soft"))
+foundations, resonance, single, soft = map(Row, ("foundations", "resonance", "single", "soft"))
 AT = ["--eta", "0.2121", "--nu", "-0.2"]
 POINT = [*AT, "--phi", "1.11"]
 KICK = " ".join(POINT)
@@ -37,9 +36,7 @@ KICKED = {"--epsilon": "0.01", "--gamma": "-0.3"}
 BASES = {
     impact: {"--eta": "0.2121", "--nu": "-0.2", "--phi": "1.11", **KICKED},
     orbits: {"--word": "01", "--eta": "0.2121", "--nu": "-0.2"},
-    period_doubling: {"--m": "1", "--epsilon": "0.1"},
     single_impact: {"--eta": "0.2121", "--nu": "-0.2", "--n": "4"},
-    resonance: {"--nu": "-0.2", "--epsilon": "0.5", "--phi": "1", "--gamma": "-0.3"},
 }
 NO_NUMBERS = ["x", "", "nan", "inf", "-inf", "1/0", "0x10", "1e400", "1e-400", "-1e400"]
 NO_NUMBERS += ["1e999999999", "1e-999999999", "9" * 250, "1/" + "9" * 250, "--bogus"]
@@ -49,7 +46,6 @@ OUTSIDE = {
     "--phi": ["-1e-9", "7", "1e180"],
     "--epsilon": ["-1e-9", "1.000001", "1e180", "-1/3"],
     "--gamma": ["1e180"],  # from inside the table, for all of them
-    "--m": ["0", "-1", "1.5", "1e10"],
     "--n": ["0", "-1", "1.5", "1e7"],
     "--word": ["2", "0" * 257, "O1"],
 }
@@ -58,9 +54,7 @@ FILES = [*((command, "--json") for command in BASES), (orbits, "--csv")]
 WORK = {
     impact: "rebound",
     periodic: "horseshoe",
-    period_doubling: "answer_for",
     single_impact: "answer_for",
-    resonance: "motion",
 }
 
 
@@ -90,8 +84,6 @@ def wrong_options():
     for command, base in BASES.items():
         for option in base:
             wrong = NO_NUMBERS if option != "--word" else ["", "--bogus"]
-            if (command, option) == (period_doubling, "--epsilon"):
-                wrong = [*wrong, "1"]
             for text in [*wrong, *OUTSIDE.get(option, [])]:
                 yield pytest.param(
                     command, flat(base | {option: text}), id=f"{command.__name__}{option}={text:.9}"
@@ -137,32 +129,10 @@ WHY = {  # what the line says
         ("--word 01 --nu 0", "nu must not be 0"),
         ("--word 01 --eta abc", "not a number"),
     ],
-    period_doubling: [
-        *((f"--m {text}", "whole number") for text in ("0", "1.5", "-1", "1000000001", "x")),
-        ("--epsilon 1", "epsilon is in [0, 1)"),
-        ("--epsilon -0.1", "epsilon is in [0, 1)"),
-        ("--k 0.5", "k is in [0, 1/(2 m))"),
-        ("--m 3 --k 1/6", "k is in [0, 1/(2 m))"),
-        ("--k -0.1", "k is in [0, 1/(2 m))"),
-        ("--q 1", "q plays no part"),
-        ("--k 0.1 --q 200", "k^2 q is less than 2"),
-        ("--rho 0", "rho is positive"),
-    ],
     atlas: [
         ("--depth -1", "from 0 to 40"),
         (f"--depth {'0' * 30}41", "from 0 to 40"),
         (f"--jobs {'9' * 30}", "from 1 to 1000"),
-    ],
-    resonance: [
-        ("--nu -0.2 --epsilon 0.5 --phi 1 --gamma 0.3", "physically impossible"),
-        ("--nu 0 --epsilon 0.5 --phi 1 --gamma 0.3", "nu must not be 0"),
-        ("--nu -0.2 --epsilon 1.1 --phi 1 --gamma -0.3", "epsilon must be in"),
-        ("--nu -0.2 --epsilon -1/2 --phi 1 --gamma -0.3", "epsilon must be in"),
-        ("--nu -0.2 --epsilon 0.5 --phi 7 --gamma -0.3", "phase outside"),
-        ("--nu -0.2 --phi 1", "required: --epsilon, --gamma"),
-        ("--nu -0.2 --epsilon 0.5 --phi x --gamma -0.3", "--phi"),
-        ("--nu -0.2 --epsilon 0.5 --phi 1 --gamma nan", "--gamma"),
-        ("--eta 1 --nu -0.2 --epsilon 0.5 --phi 1 --gamma 0", "--eta"),
     ],
     bifurcation: [
         ("'x1 = r*x*(1 - x'", "not a formula"),
@@ -215,10 +185,8 @@ def test_nothing_may_be_missing_or_too_much(command, capsys):
         refused(capsys, command, [*flat({k: v for k, v in base.items() if k != option}), option])
     for more in (["stray"], ["--bogus"], ["--digits"], ["--json"]):
         refused(capsys, command, [*flat(base), *more])
-    if command is not period_doubling:  # all its options have defaults
-        needed = [option for option in base if (command, option) not in OPTIONAL]
-        for option in needed:
-            refused(capsys, command, flat({k: v for k, v in base.items() if k != option}))
+    for option in (option for option in base if (command, option) not in OPTIONAL):
+        refused(capsys, command, flat({k: v for k, v in base.items() if k != option}))
 
 
 OPTIONAL = {(orbits, "--eta"), (orbits, "--nu"), (single_impact, "--n")}
@@ -294,8 +262,7 @@ def test_where_writing_fails_in_the_end_nothing_is_printed(
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr("os.fsync", full)
-    base = [*flat(BASES[command]), *(["--fast"] if command is orbits else [])]
-    said = refused(capsys, command, [*base, option, str(tmp_path / "file")])
+    said = refused(capsys, command, [*flat(BASES[command]), option, str(tmp_path / "file")])
     assert "No space left" in said and [*tmp_path.iterdir()] == []
 
 
@@ -314,16 +281,79 @@ def test_two_outputs_are_two_files(tmp_path, capsys, no_work, monkeypatch):
     assert [*tmp_path.iterdir()] == []
 
 
-@pytest.mark.parametrize(
-    ("module", "arguments", "name"),
-    [
-        ("commands.impact", ["--phi", "1.1", "--phi=1.3"], "--phi"),
-        ("commands.single_impact", ["--eta", "0.3", "--nu", "0.2", "--eta", "0.4"], "--eta"),
-        ("horseshoe", ["--left", "1.1", "1.15", "--left", "1.1", "1.14"], "--left"),
+# -- the other commands ----------------------------------------------------------------------------
+
+SIDES = "--eta 0.2115 0.2127 --nu -0.201 -0.199"
+LOGISTIC = "--map 'r*x*(1 - x)' --set r=3 --box x=0:1"
+CELLS = "--map 'r*x*(1 - x) + c' --box x=0:1 --range r 4.9 5.1"
+REFUSED = {  # arguments, and what the line says
+    "atlas": [
+        ("--eta 0.3 0.2 --nu -0.2 -0.1 --ask horseshoe", "eta: reversed or empty"),
+        ("--eta 0.2 0.2 --nu -0.2 -0.1 --ask horseshoe", "eta: reversed or empty"),
+        ("--eta 0 0.2 --nu -0.2 -0.1 --ask horseshoe", "eta must be positive"),
+        (SIDES, "go together"),
+        ("--epsilon 0.1", "go together"),
+        (f"{SIDES} --ask horseshoe --depth 41", "depth"),
+        (f"{SIDES} --ask horseshoe --jobs 0", "--jobs"),
+        (f"{SIDES} --ask horseshoe --executor ssh:somewhere", "dask:"),
+        ("", "there is no"),
+        (f"{SIDES} --ask chaos", "the question is one of attractor, horseshoe"),
+        (f"{SIDES} --ask entropy:1", "entropy:2 to entropy:50"),
+        (f"{SIDES} --ask horseshoe --epsilon 0.3", "plastic impacts alone"),
+        *(
+            (f"{SIDES} --ask orbits --epsilon {x}", "in [0, 1)")
+            for x in ("1", "0.3 0.2", "0 .1 .2")
+        ),
+        (f"{SIDES} --ask horseshoe --json file/atlas.json", "cannot write"),
+        *((f"{SIDES} --lines {more}", "") for more in ("--json -", "--cell 0.2122 -0.2")),
+        (f"{CELLS} --range c 0 0.01", ""),
+        (f"{CELLS} --range c 0 0.01 --eta 1 2", ""),
+        (f"{CELLS} --ask horseshoe", ""),
     ],
+    "benchmark": [(x, "") for x in ("--nonsense", "--quick --full", "circles", "--out file")],
+    "check": [(x, "") for x in ("", "--bogus", "--work x file")],
+    "circle": [("--left 1 1.1", "change nothing")],
+    "formal": [(x, "a certificate is expected") for x in ("", "file --arithmetic")],
+    "horseshoe": [("--left 1.1 1.15 --left 1.1 1.14", "--left is given 2 times")],
+    "impact": [("--phi 1.1 --phi=1.3", "--phi is given 2 times")],
+    "ledger": [("--only H99", "H99"), ("--digits 0", "digits")],
+    "persistence": [("--slopes 4 5", "change nothing")],
+    "resonance": [(f"--{name} 2", "") for name in ("eta", "nu")],
+    "single": [("--only P5 P1 --eta 0.5", "--eta would change nothing in P5 P1")],
+    "single_impact": [("--eta 0.3 --nu 0.2 --eta 0.4", "--eta is given 2 times")],
+    "soft": [("--eta 2", "change nothing")],
+    "stress": [
+        *((x, "") for x in ("--nonsense", "--cases 0", "--cases many", "--seed -1")),
+        *((x, "") for x in ("--json .", "--family circles", "--out file/absent")),
+    ],
+    "system": [
+        *(
+            (x, "")
+            for x in ("", "nowhere.toml", "--example none", "--map 2x", "--map x/2 --figure")
+        ),
+        *(
+            (f"--map x {more}", "")
+            for more in ("--effort 0", "--seconds soon", "--set r", "--example wall")
+        ),
+        *((f"--map x {more}", "") for more in ("--ask orbits:0", "--box x=1", "--box y=0:1")),
+        *((f"{LOGISTIC} --ask {x}", "") for x in ("branches", "branches:r=2", "folds:r=2:4")),
+        *((f"{LOGISTIC} --ask {x}:r=2:4,q=1:2", "") for x in ("branches", "flips")),
+    ],
+}
+
+
+@pytest.mark.every
+@pytest.mark.parametrize(
+    "command, arguments, why", [(name, *row) for name, rows in REFUSED.items() for row in rows]
 )
-def test_an_option_that_is_given_twice_is_no_last_word(module, arguments, name, capsys):
-    with pytest.raises(SystemExit) as left:
-        import_module(f"proofs.{module}").main(arguments)
-    assert left.value.code == 2
-    assert f"{name} is given 2 times" in capsys.readouterr().err
+def test_others_refuse_in_a_line_before_the_work(
+    command, arguments, why, tmp_path, capsys, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "file").touch()
+    began = perf_counter()
+    assert guarded("python -m proofs", lambda: main([command, *shlex.split(arguments)])) == 2
+    said = capsys.readouterr()
+    assert said.out == "" and said.err.count("\n") == 1 and why in said.err
+    assert perf_counter() - began < 5
+    assert [path for path in tmp_path.rglob("*") if path.is_file()] == [tmp_path / "file"]

@@ -205,14 +205,5 @@ def test_a_claim_that_is_not_there_is_proved(tmp_path):
     assert {claim.id for claim in found.report.claims} == {"H1", "H16"}
 
 
-def test_bad_input_is_one_line_and_writes_nothing(tmp_path, capsys):
-    for arguments in (["--only", "H99"], ["--digits", "0"]):
-        with pytest.raises(SystemExit) as failure:
-            main([*arguments, "--out", str(tmp_path)])
-        assert failure.value.code == 2
-        assert capsys.readouterr().err.count("\n") == 1
-    assert not list(tmp_path.iterdir())
-
-
 def test_a_group_is_a_file():
     assert "N3" in FILES["nonplastic"]["nonplastic"] and "N1" in FILES["horseshoe"]["nonplastic"]

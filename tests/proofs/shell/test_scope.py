@@ -31,23 +31,6 @@ def test_what_is_about_the_parameters_given_names_them(group):
     assert "at (eta, nu) = (0.5, -1/3)." in text(group)
 
 
-@pytest.mark.parametrize(
-    ("command", "arguments"),
-    [
-        ("resonance", ["--eta", "2"]),
-        ("resonance", ["--nu", "0.3"]),
-        ("soft", ["--eta", "2"]),
-        ("circle", ["--left", "1", "1.1"]),
-        ("persistence", ["--slopes", "4", "5"]),
-    ],
-)
-def test_numbers_that_nothing_is_about_are_refused(command, arguments, tmp_path, capsys):
-    with pytest.raises(SystemExit) as left:
-        main([command, *arguments, "--out", str(tmp_path)])
-    assert left.value.code == 2 and capsys.readouterr().err.count("\n") == 1
-    assert not list(tmp_path.iterdir())
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("command", ["horseshoe", "sets", "dimension"])
 def test_the_paper_s_sets_are_not_taken_elsewhere(command, tmp_path, capsys):

@@ -56,6 +56,7 @@ def check_stop(name, folder, number, after, everyone=True):
     return True
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", COMMANDS)
 def test_an_interrupt_while_it_begins(name, tmp_path):
     """Before its own imports are done, at times."""
@@ -139,7 +140,8 @@ def test_a_signal_is_not_lost(where, ended):
 def test_what_is_ignored_stays_ignored():
     """As in a background job of a shell without job control."""
     code = "import signal, subprocess, sys; signal.signal(signal.SIGINT, signal.SIG_IGN); "
-    code += "sys.exit(subprocess.call([sys.executable, '-m', 'proofs', 'period_doubling']))"
+    code += "ask = ['single_impact', '--eta', '0.237', '--nu', '0.3', '--quiet']; "
+    code += "sys.exit(subprocess.call([sys.executable, '-m', 'proofs', *ask]))"
     process = subprocess.Popen([sys.executable, "-c", code], start_new_session=True, stdout=-3)
     sleep(0.3)
     os.killpg(process.pid, signal.SIGINT)

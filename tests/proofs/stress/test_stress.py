@@ -318,18 +318,6 @@ def test_json_goes_to_the_screen_alone_and_makes_the_case_again(capsys):
     assert judge(case, KERNEL).outcome.value == given["outcome"]
 
 
-BAD = ["--nonsense", "--cases 0", "--cases many", "--seed -1", "--json {0}", "--family circles"]
-
-
-@pytest.mark.parametrize("arguments", [*BAD, "--out {0}/file/absent"])
-def test_bad_usage_exits_2_before_the_work(monkeypatch, arguments, capsys, tmp_path):
-    monkeypatch.setattr(command, "stress", None)
-    (tmp_path / "file").write_text("")
-    with pytest.raises(SystemExit) as stopped:
-        main(arguments.format(tmp_path).split())
-    assert stopped.value.code == 2 and capsys.readouterr().err.count("\n") == 1
-
-
 def test_help_has_examples_and_every_family(capsys):
     with pytest.raises(SystemExit) as stopped:
         main(["--help"])

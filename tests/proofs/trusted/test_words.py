@@ -52,6 +52,24 @@ HYPOTHESES = [
     ("R6", "witness", "where cos(phi_o) is not 0"),
     ("R6", "witness", "a touch without relative velocity"),
     ("R12", "corrected", "The converse is false"),
+    ("S8", "corrected", "beta, omega, g > 0, m >= 1, 0 <= epsilon < 1"),  # with beta < 0, X < 1
+    ("S10", "corrected", "beta, omega, g > 0, m >= 1, 0 <= epsilon < 1"),
+    ("S10", "why", "True if X < 1"),
+    ("S15", "corrected", "m >= 1, 0 <= epsilon < 1, rho > 0"),
+    ("S15", "corrected", "If epsilon > epsilon_m, the first is an orbit for all rho >= rho_SN"),
+    ("S15", "corrected", "the first exactly for rho > rho_G, the second for no rho"),
+    ("S15", "corrected", "If epsilon = 0, the first exactly for rho >= sqrt(4 + c^2)"),
+    ("S15", "corrected", "epsilon_1 = 0.0204576..."),
+    ("S16", "corrected", "0 < epsilon < 1"),
+    ("S16", "corrected", "an orbit, too, exactly if epsilon > epsilon_m and rho < rho_G"),
+    ("S17", "corrected", "0 < epsilon < 1"),
+    ("S17", "corrected", "rho > rho_F; it is an orbit then"),
+    ("S18", "corrected", "the saddle-node is one of orbits exactly if epsilon > epsilon_m"),
+    ("S18", "corrected", "2 sqrt(1 + u_(m-1)^2) <= rho < sqrt(4 + (2 pi m)^2)"),
+    ("S22", "why", "five of the six fail, all but d^2(f^2)/dpsi^2 = 0"),
+    ("S23", "why", "m >= 1, 0 <= epsilon < 1 and springs of any stiffness 0 < k"),
+    ("S23", "why", "k^2 q < 2"),
+    ("S23", "why", "with lambda < 0, an orbit or not"),
 ]
 
 

@@ -15,7 +15,7 @@ from proofs.trusted.kernel.coverings import EntropyBound
 from proofs.trusted.kernel.loops import StableOrbit
 from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import between
-from proofs.trusted.paper.beyond.returning import StickingMotion
+from proofs.trusted.paper.beyond.returning import StickingMotion, SticksOnce
 from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
@@ -180,6 +180,18 @@ class AllStick(Conclusion):
         )
 
 
+def all_stick(found: Found) -> Callable[[Place], AllStick]:
+    """Return what proves it of an oscillator, from where the mass separates."""
+
+    def proved(at: Place) -> AllStick:
+        arc = found.first(Separation)
+        if arc is None or arc.at != at:
+            raise Unproved("where the mass separates is not proved")
+        return AllStick(arc)
+
+    return proved
+
+
 def prove_settles(context: Context, reader: Reader) -> AtRest | AllStick:
     """Rule `settles`: {separation: name of a step, or null}.
 
@@ -200,7 +212,7 @@ def _chaotic(of: Parameters, found: Found) -> Decision:
     for graph in found.all(EntropyBound):
         if graph.growth > 1:
             return decided(Verdict.VERIFIED, graph)
-    none = first_proved(of.place, AtRest, OnlyTouches)
+    none = first_proved(of.place, AtRest, OnlyTouches, all_stick(found))
     return undecided("no horseshoe is proved") if none is None else decided(Verdict.REFUTED, none)
 
 
@@ -208,9 +220,10 @@ def _chaotic(of: Parameters, found: Found) -> Decision:
 
 
 def _sticks(of: Parameters, found: Found) -> Decision:
-    motion, none = found.first(StickingMotion), first_proved(of.place, AtRest, NeverSticks)
+    motion = found.first(StickingMotion)
     if motion is not None:
         return decided(Verdict.VERIFIED, motion)
+    none = first_proved(of.place, AtRest, NeverSticks) or found.first(SticksOnce)
     return undecided("none is proved") if none is None else decided(Verdict.REFUTED, none)
 
 
@@ -218,9 +231,10 @@ def _sticks(of: Parameters, found: Found) -> Decision:
 
 
 def _stable(of: Parameters, found: Found) -> Decision:
-    orbits, none = found.all(StableOrbit), first_proved(of.place, AtRest, OnlyTouches)
+    orbits = found.all(StableOrbit)
     if orbits:
         return decided(Verdict.VERIFIED, *orbits)
+    none = first_proved(of.place, AtRest, OnlyTouches, all_stick(found))
     return undecided("none is proved") if none is None else decided(Verdict.REFUTED, none)
 
 

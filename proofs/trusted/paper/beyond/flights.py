@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.paper.beyond.attractors import AtRest, NeverSticks, OnlyTouches, first_proved
-from proofs.trusted.paper.beyond.returning import StickingMotion
-from proofs.trusted.paper.s34_circle.circle import basin, most
-from proofs.trusted.paper.s34_circle.landing import NeverImpacts
+from proofs.trusted.paper.beyond.attractors import (
+    AtRest,
+    NeverSticks,
+    OnlyTouches,
+    all_stick,
+    first_proved,
+)
+from proofs.trusted.paper.beyond.returning import StickingMotion, SticksOnce
+from proofs.trusted.paper.s34_circle.circle import MAJORITY, basin, most
+from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
@@ -48,12 +55,17 @@ def _flies(of: Parameters, found: Found) -> Decision:
 
 def _comes(of: Parameters, found: Found) -> Decision:
     """X10: a mass that sticks leaves at phi_s, so that one motion alone sticks and is periodic."""
-    none: Conclusion | None = first_proved(of.place, AtRest, NeverSticks)
-    motion = found.first(StickingMotion)
+    motion, arc = found.first(StickingMotion), found.first(Separation)
+    none = first_proved(of.place, AtRest, NeverSticks) or found.first(SticksOnce)
     if none is None and motion is not None and motion.cells:  # two impacts a period, or more
         none = motion
     if none is not None:
         return decided(Verdict.REFUTED, none)
+    every = first_proved(of.place, all_stick(found))
+    if every is not None:
+        return decided(Verdict.VERIFIED, every)
+    if arc is not None and arc.returns and arc.share > MAJORITY:
+        return decided(Verdict.VERIFIED, arc, known={"basin_fraction": (arc.share, Fraction(1))})
     return basin(most, printed=False)(of, found)
 
 

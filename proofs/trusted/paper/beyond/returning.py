@@ -1,4 +1,4 @@
-"""Motions that come back to the arc where the mass sticks, or to just after it. X3."""
+"""Motions from the arc where the mass sticks: back to it, or to what never sticks. X3."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.images import image_range, inside
 from proofs.trusted.kernel.laps import SlopeRange
-from proofs.trusted.kernel.loops import MOST_CELLS, led
+from proofs.trusted.kernel.loops import MOST_CELLS, StableOrbit, led
 from proofs.trusted.kernel.staying import read_part
 from proofs.trusted.numbers import (
     TURN,
@@ -24,7 +24,7 @@ from proofs.trusted.numbers import (
     show,
     show_range,
 )
-from proofs.trusted.paper.s34_circle.landing import Lands, Separation
+from proofs.trusted.paper.s34_circle.landing import Lands, NeverImpacts, Separation
 
 
 def _named(cells: Sequence[Range]) -> str:
@@ -126,6 +126,83 @@ class ReturningMotion(Conclusion):
         return {"separation_phase": self.arc.phase}
 
 
+@dataclass(frozen=True)
+class SticksOnce(Conclusion):
+    """After the separation the mass makes an impact in each of the cells, and then comes to `end`.
+
+    end: motions that never stick: around a stable orbit, or without another impact.
+    """
+
+    arc: Separation
+    cells: tuple[Range, ...]
+    end: StableOrbit | NeverImpacts
+
+    def __post_init__(self) -> None:
+        if self.end.at != self.arc.at:
+            raise Unproved("the hypotheses are about different oscillators")
+        if not self.cells and not _ends([self.arc.arrival], self.end):
+            raise Unproved("the flight after the separation does not come to what never sticks")
+
+    at = About("arc")
+
+    @property
+    def sentence(self) -> str:
+        impacts = f" makes impacts at phases in {_named(self.cells)}," if self.cells else ""
+        if isinstance(self.end, StableOrbit):
+            end = (
+                f"makes all {'further ' * bool(self.cells)}impacts at phases in "
+                f"{_named(self.end.cells)}, around a stable periodic orbit of period "
+                f"{len(self.end.cells)}, and leaves at once after each"
+            )
+        else:
+            end = (
+                f"makes one {'more ' * bool(self.cells)}impact, at a phase in "
+                f"{show_range(self.end.phases)}, mod 2 pi, and no other, only touches without "
+                "relative velocity"
+            )
+        return (
+            f"a mass that sticks leaves the table at a phase in {between(self.arc.phase, 12)},"
+            f"{impacts} {end}: it never sticks again, and no periodic motion sticks."
+        )
+
+    @property
+    def brief(self) -> str:
+        period = len(self.end.cells) if isinstance(self.end, StableOrbit) else 0
+        end = f"a stable orbit of period {period}" if period else "motions without an impact"
+        return f"a mass that sticks comes to {end}, and never sticks again"
+
+    @property
+    def quantities(self) -> dict[str, Range]:
+        return {"separation_phase": self.arc.phase}
+
+
+def sticks_once(
+    arc: Separation, parts: Sequence[SlopeRange], end: StableOrbit | NeverImpacts
+) -> SticksOnce:
+    """Theorem. Let f be C^1 on sets C_1, ..., C_n of phases, the first impact after the separation
+    inside C_1, f(C_i) inside C_(i+1), and f(C_n), or for n = 0 the first impact, inside a set of a
+    stable orbit, or inside phases after which there is no impact. Then what the conclusion's
+    sentence says.
+
+    Proof. What sticks leaves at phi_s. Its impacts are in the C_i in turn, where it leaves at once,
+    as f is C^1 there; then in the sets of the orbit, which f maps into each other; or there is
+    none, and no touch, which comes at the phase of the launch with the gap > 0 before it, is where
+    the mass sticks. So from the separation on it never sticks, and no such motion repeats.
+    """
+    if any(part.at != arc.at for part in parts):
+        raise Unproved("the hypotheses are about different oscillators")
+    if not _ends(led([arc.arrival], parts), end):
+        raise Unproved("the last impact is not proved to come to what never sticks")
+    return SticksOnce(arc, tuple(part.ends for part in parts), end)
+
+
+def _ends(images: Sequence[Range], end: StableOrbit | NeverImpacts) -> bool:
+    """Whether impacts are where, from then on, the mass never sticks."""
+    sets = end.cells if isinstance(end, StableOrbit) else [end.phases]
+    f = PlasticMap(end.at)
+    return all(any(inside(f, image, each) for each in sets) for image in images)
+
+
 def sticking_motion(
     arc: Separation,
     parts: Sequence[SlopeRange],
@@ -173,16 +250,24 @@ def _steepest(arc: Separation) -> Fraction:
     return rise * width / (low * arc.speed[0])
 
 
-def prove_sticking_motion(context: Context, reader: Reader) -> StickingMotion | ReturningMotion:
+def prove_sticking_motion(
+    context: Context, reader: Reader
+) -> StickingMotion | ReturningMotion | SticksOnce:
     """Rule `sticking-motion`: {separation, cells: [{slopes, domain}], beyond, landing}.
 
     separation, landing: names of steps; slopes: a slope-range step; domain: two of its points;
-    beyond: null, or as a cell; landing: or null. Conclusion: `sticking_motion`.
+    beyond: null, or as a cell; landing: or null. Conclusion: `sticking_motion`; `sticks_once` where
+    landing is a `stable-orbit` or a `never-impacts` step.
     """
     separation_of, cells_of, beyond_of, landing_of = reader.fields(
         "separation", "cells", "beyond", "landing"
     )
     parts = [read_part(context, cell) for cell in cells_of.items(0, MOST_CELLS)]
     beyond = None if beyond_of.is_null() else read_part(context, beyond_of)
-    landing = None if landing_of.is_null() else context.step(landing_of, Lands)
-    return sticking_motion(context.step(separation_of, Separation), parts, beyond, landing)
+    arc = context.step(separation_of, Separation)
+    landing = None if landing_of.is_null() else context.step(landing_of, Conclusion)
+    if isinstance(landing, StableOrbit | NeverImpacts) and beyond is None:
+        return sticks_once(arc, parts, landing)
+    if not isinstance(landing, Lands | None):
+        raise landing_of.fail("names no step about where the last impact is")
+    return sticking_motion(arc, parts, beyond, landing)

@@ -57,7 +57,8 @@ def golden_mean(context: Context, reader: Reader) -> GoldenMean:
     V1. So full orbits in V1 and V2 follow the arrows, and `horseshoe` describes those.
     """
     names, part_of, words_of = reader.fields("rectangles", "part", "words")
-    (first, second), part = read_rectangles(context, names, 2), context.step(part_of, Rectangle)
+    first, second = read_rectangles(context, names, 2, 2)
+    part = context.step(part_of, Rectangle)
     words = [context.step(name, BarredWord) for name in words_of.items(most=64)]
     at, found = place_of(first), strips_of((first, second))
     if at.sides[2][0] <= 0:

@@ -27,7 +27,7 @@ CONSTANT = (Fraction("3.38"), Fraction("6.04"))  # where f' = 0, as printed
 ORBIT = (Fraction("4.64"), Fraction("6.05"))  # the orbit of period 2, as printed
 LONG = (Fraction("1.1"), Fraction("1.5"))  # where transients are long, as printed
 _HALF = Fraction(1, 200)  # half a unit of the last place printed
-_MAJORITY = Fraction(1, 2)  # more than it is most of the circle
+MAJORITY = Fraction(1, 2)  # more than it is most of the circle
 _OPEN_SHARE = Fraction(1, 10**6)  # of the circle, of which G13 says nothing
 _END = Fraction(1, 10**9)  # how narrowly G13 brackets the ends of an interval
 _OPEN = Verdict.UNDECIDED
@@ -103,7 +103,7 @@ def most(known: Absorption, rest: Sequence[Conclusion]) -> Verdict:
     what of the circle; which ones were chosen the paper does not say.
     """
     del rest
-    return Verdict.VERIFIED if known.share > _MAJORITY else _OPEN
+    return Verdict.VERIFIED if known.share > MAJORITY else _OPEN
 
 
 def _almost_every(known: Absorption, rest: Sequence[Conclusion]) -> Verdict:

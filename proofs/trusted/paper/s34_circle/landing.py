@@ -63,6 +63,11 @@ class Separation(Conclusion):
         return self.start[1] < self.arrival[0] and self.arrival[1] < self.phase[0]
 
     @property
+    def share(self) -> Fraction:
+        """The least share of the circle that the arc is."""
+        return (self.phase[0] - self.start[1]) / TURN_AT_MOST
+
+    @property
     def sentence(self) -> str:
         start, phase, arrival = (between(x, 20) for x in (self.start, self.phase, self.arrival))
         periodic = (
@@ -218,14 +223,14 @@ class NeverImpacts(Conclusion):
     def sentence(self) -> str:
         turns = self.at.eta[0].denominator
         return (
-            f"since eta is rational, mass and table are where they were after {turns} turns of the "
-            "table. So the gap has a first zero after every phase (after the mass leaves the "
-            "table, where it sticks): f is defined on [0, 2 pi) if a touch without relative "
-            "velocity counts as an impact. After a launch at a phase of "
-            f"{show_range(self.phases)}, {floor_text(100 * self.share)} percent of the circle or "
-            f"more, the mass stays off the table for these {turns} turns, then touches it at the "
-            f"phase of the launch, and so on forever: the motion has the period {2 * turns} pi, "
-            "and there is no impact, or f(phi) = phi if a touch counts as one."
+            f"after a launch at a phase of {show_range(self.phases)}, "
+            f"{floor_text(100 * self.share)} percent of the circle or more, the mass stays off the "
+            f"table for {turns} turns, then touches it at the phase of the launch, without "
+            f"relative velocity, and so on forever: the motion has the period {2 * turns} pi, and "
+            "there is no impact, or f(phi) = phi if a touch counts as one. Since eta is rational, "
+            "mass and table are then where they were, after a launch at any phase: so the gap has "
+            "a first zero after every phase (after the mass leaves the table, where it sticks), "
+            "and f is defined on [0, 2 pi) if a touch counts as an impact."
         )
 
     @property

@@ -267,29 +267,6 @@ def test_leaves_cover_the_box(tree, x, y):
     assert any(a <= x <= b and c <= y <= d for (a, b), (c, d) in parts)
 
 
-@pytest.mark.every
-@pytest.mark.parametrize(
-    "tree",
-    [
-        ["0", "1/2", None, None],
-        ["3", "1/2", None, None],
-        ["1", "0", None, None],
-        ["1", "1", None, None],
-        ["1", "2", None, None],
-        ["1", "1/2", None],
-        ["1", "1/2", None, None, None],
-        ["1", "1/2", ["1", "3/4", None, None], None],
-        ["x", "1/2", None, None],
-        "1",
-        [],
-        {},
-    ],
-)
-def test_malformed_trees(tree):
-    with pytest.raises(Malformed):
-        list(leaves(Reader(tree), UNIT))
-
-
 @pytest.mark.parametrize("depth", [59, 60, 61, 200])
 def test_deep_trees_are_refused(depth):
     tree = None

@@ -420,12 +420,6 @@ def test_false_values(function, bounds, box):
         value(function, bounds, **box)
 
 
-@pytest.mark.parametrize("box", [{}, {"y": ["0", "0"]}, {"x": ["0", "0"], "y": ["0", "0"]}])
-def test_a_box_has_the_variables_of_the_function(box):
-    with pytest.raises(Malformed):
-        value("x", ["0", "1"], **box)
-
-
 @pytest.mark.parametrize("name", ["function", "box", "bounds"])
 def test_an_asked_value_is_met_by_that_value_alone(name):
     asked = at("x - y", 1, y="1", x="2")

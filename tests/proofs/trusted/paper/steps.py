@@ -3,14 +3,30 @@
 import copy
 from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 
 from mpmath import mp
 
+from proofs.search.evidence import Evidence
 from proofs.trusted.certificate import Reader
 from proofs.trusted.flights import PlasticMap
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.rules import find_rule
+from tests.oracles.sources import committed, committed_conclusions
+
+
+@cache
+def evidence(group):
+    """What the committed certificate of a group proves, as the prover would hand it on."""
+    made, (_, known) = committed(group), committed_conclusions(group)
+    named = made["proofs"].items()
+    return Evidence(made["steps"], {x: [(y, known[y]) for y in names] for x, names in named})
+
+
+def known_of(group):
+    """The conclusions of its steps, by name."""
+    return committed_conclusions(group)[1]
 
 
 def apply(rule, witness, known=None, of=PAPER):

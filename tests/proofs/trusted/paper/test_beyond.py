@@ -1,7 +1,6 @@
 """What is said at any parameters: only from hypotheses that are proved."""
 
 import json
-import math
 import random
 from dataclasses import replace
 from fractions import Fraction
@@ -26,7 +25,13 @@ from proofs.trusted.paper import BEYOND, find
 from proofs.trusted.paper.beyond.attractors import AtRest, Leaves, NeverSticks, OnlyTouches
 from proofs.trusted.paper.beyond.flights import FlightsEnd
 from proofs.trusted.paper.beyond.restitution import ComesToRest
-from proofs.trusted.paper.beyond.returning import ReturningMotion, StickingMotion, sticking_motion
+from proofs.trusted.paper.beyond.returning import (
+    ReturningMotion,
+    StickingMotion,
+    SticksOnce,
+    sticking_motion,
+    sticks_once,
+)
 from proofs.trusted.paper.s34_circle.absorption import Absorption
 from proofs.trusted.paper.s34_circle.landing import Lands, NeverImpacts, Separation
 from proofs.trusted.paper.s34_circle.persistence import (
@@ -38,7 +43,6 @@ from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import check, premises
 from tests.oracles.judge import oracle
-from tests.oracles.motion import flight
 from tests.proofs.trusted.paper.steps import moved_to
 
 F = Fraction
@@ -107,27 +111,6 @@ def test_images_that_pass_phase_0():
     vague = ImageArc(PlasticMap(HERE), arc.domain, Phase(F(2), F(4)), Phase(F(3), F(5)))
     assert not vague.passes_zero and not vague.covers(cell("4.1", "4.2"))
     assert not vague.misses(cell("5.1", "5.2"))
-
-
-@pytest.mark.parametrize(
-    "parts",
-    [
-        TENT[:1],  # one cell
-        (),
-        (TENT[0], affine("1.3", 2, "2.1", "0.9")),  # they overlap
-        (TENT[0], affine("1.4", 2, "2.1", "0.9")),  # they touch
-        (TENT[0], affine("1.6", 2, "2.1", "1.2")),  # covers half a cell
-        (TENT[0], affine("1.6", 2, "1.5", "1.9")),  # not steep, and no way back
-        (TENT[0], affine("1.6", 2, "1.999999", "0.9")),  # by less than is known
-        (affine(1, "1.4", "0.9", "1.5"), affine("1.6", 2, "1.5", "2.1")),  # two fixed points
-        (affine(1, "1.4", "1.5", "2.1"), affine("1.6", 2, "0.9", "1.5")),  # one orbit of period 2
-        (TENT[0], affine("1.6", 2, "2.1", "0.9", at=THERE)),  # another oscillator
-        (TENT[0], affine("1.6", 2, 4, 5)),  # leads away
-    ],
-)
-def test_what_is_no_markov_set(parts):
-    with pytest.raises(Unproved):
-        markov_set(parts)
 
 
 @pytest.mark.parametrize(
@@ -245,20 +228,6 @@ def test_motions_with_restitution_come_to_rest(eta, nu, epsilon, holds):
             ComesToRest(at)
 
 
-@pytest.mark.parametrize(("eta", "nu"), [("2", "1"), ("1.5582", "1.6178"), ("0.5", "0.2")])
-def test_a_flight_gains_no_more_speed_than_is_said(eta, nu):
-    """v^2 <= w^2 (1 + c / (b eta)), by the oracle's flights; the bound is not far off."""
-    change = float(nu) * abs(1 - float(eta) ** 2)
-    most = 1 + change / ((float(eta) ** 2 - change) * float(eta))
-    rng, found = random.Random(1), []
-    for _ in range(150):
-        phase, kick = F(rng.uniform(0, 6.28)), 10 ** rng.uniform(-2, 1)
-        gamma = (2 * kick - float(nu) * math.cos(phase)) / float(eta)  # speed 2 w, epsilon = 1/2
-        impact = flight(F(eta), F(nu), phase, F("1/2"), F(gamma))
-        found.append((float(impact.speed) / kick) ** 2)
-    assert most / 4 < max(found) < most
-
-
 def test_only_motions_that_impact_no_more_touch_for_ever():
     """X9 needs epsilon > 0 and phases without an impact at these parameters; rest refutes it: so
     what rests on the table, and touches it for ever, must be none of the motions that it is about.
@@ -328,10 +297,71 @@ def test_what_is_no_motion_that_sticks(arrival, parts):
             StickingMotion(arc(arrival), ())
 
 
+# -- motions that stick once -----------------------------------------------------------------------
+
+STEP = affine("1.1", "1.3", "1.65", "1.75")  # to both of what follows
+NEVER = NeverImpacts(HERE, Phases(F("1.6"), F("1.8")))
+
+
+def attracting():
+    return stable_orbit([affine("1.5", "1.9", "1.6", "1.7")])
+
+
+@pytest.mark.parametrize("end", [NEVER, attracting()])
+def test_a_motion_that_sticks_once(end):
+    found = sticks_once(arc("1.2"), (STEP,), end)
+    assert "never sticks again, and no periodic motion sticks" in found.sentence
+    assert ("all further impacts" if end is not NEVER else "one more impact") in found.sentence
+    assert "further" not in sticks_once(arc("1.7"), (), end).sentence
+    for claim in ("X3", "X10"):
+        assert find(claim).decide(PAPER, [found]).verdict is Verdict.REFUTED
+        assert find(claim).decide(PAPER, [end]).verdict is Verdict.UNDECIDED
+
+
+@pytest.mark.parametrize(
+    ("arrival", "parts", "end"),
+    [
+        ("1.2", (), NEVER),  # neither there nor on the arc
+        ("4", (), NEVER),  # it sticks
+        ("1.95", (), attracting()),
+        ("1.2", (affine("1.1", "1.3", "1.55", "1.75"),), NEVER),  # not all images
+        ("1.2", (affine("1.1", "1.3", "1.6", "1.91"),), attracting()),
+        ("1.35", (STEP,), NEVER),  # beside the cell
+        ("1.2", (STEP, affine("1.7", "1.8", "1.65", "1.75")), NEVER),
+        ("1.2", (affine("1.1", "1.3", "1.65", "1.75", at=THERE),), NEVER),
+        ("1.2", (STEP,), replace(NEVER, at=THERE)),
+        ("1.7", (), moved_to(attracting(), THERE)),
+    ],
+)
+def test_what_is_no_motion_that_sticks_once(arrival, parts, end):
+    with pytest.raises(Unproved):
+        sticks_once(arc(arrival), parts, end)
+    if not parts:
+        with pytest.raises(Unproved):
+            SticksOnce(arc(arrival), (), end)
+
+
+@pytest.mark.parametrize(("start", "verdict"), [("2", "VERIFIED"), ("2.9", "UNDECIDED")])
+def test_the_arc_alone_is_most_of_the_circle(start, verdict):
+    """X10: [2, 6] is 4 / 2 pi of it; and only if the flight from its end comes back."""
+    long = replace(arc(4), start=(F(start), F(start)), turns=2)
+    assert find("X10").decide(PAPER, [long]).verdict.value == verdict
+    beside = replace(long, arrival=(F(1), F("1.1")))
+    assert find("X10").decide(PAPER, [beside]).verdict is Verdict.UNDECIDED
+
+
+def test_where_all_stick_there_is_neither_chaos_nor_another_orbit():
+    """X2, X4 and X10 by `AllStick`: eta at most 3/7, and the flight ends on the next arc."""
+    soon, late = arc(4), replace(arc(4), turns=2)
+    for claim, verdict in (("X2", "REFUTED"), ("X4", "REFUTED"), ("X10", "VERIFIED")):
+        assert find(claim).decide(PAPER, [soon]).verdict.value == verdict
+        for other in (late, arc(4, at=THERE), arc("1.2")):
+            assert find(claim).decide(PAPER, [other]).verdict is Verdict.UNDECIDED
+
+
 # -- motions that come back to the arc, or to just after it ----------------------------------------
 
 LANDING = Lands(HERE, (F(2), F("3.45")))
-AFTER = affine("5.9999", "6.2", "6.1", "6.05")  # launches after the arc's end
 
 
 def test_the_last_impact_may_be_before_the_arc_where_the_next_one_is_on_it():
@@ -502,7 +532,11 @@ def test_a_stable_orbit_cannot_be_made_of_false_data():
 ASKED = [  # verdicts of X1 to X5, X10; X2, X4 and X5 by simulation in the oracles
     ("0.22", "-0.2", "REFUTED VERIFIED VERIFIED UNDECIDED VERIFIED REFUTED"),
     ("0.112", "-0.336", "REFUTED VERIFIED VERIFIED UNDECIDED VERIFIED REFUTED"),
-    ("0.237", "0.3", "REFUTED UNDECIDED UNDECIDED VERIFIED REFUTED UNDECIDED"),
+    ("0.237", "0.3", "REFUTED UNDECIDED REFUTED VERIFIED REFUTED REFUTED"),
+    ("1/3", "-0.23", "REFUTED UNDECIDED REFUTED UNDECIDED VERIFIED REFUTED"),  # touches for ever
+    ("0.33", "1.6564", "REFUTED UNDECIDED REFUTED VERIFIED REFUTED REFUTED"),  # multiplier 0.956
+    ("2.4932", "1.5046", "REFUTED UNDECIDED VERIFIED UNDECIDED REFUTED VERIFIED"),  # a long arc
+    ("0.301", "0.191", "REFUTED REFUTED VERIFIED REFUTED REFUTED VERIFIED"),  # all stick
     ("0.5", "0.2", "VERIFIED REFUTED REFUTED REFUTED REFUTED REFUTED"),
     ("0.103", "0.541", "REFUTED VERIFIED VERIFIED UNDECIDED REFUTED REFUTED"),
     ("0.7857", "-0.1701", "REFUTED VERIFIED REFUTED UNDECIDED VERIFIED REFUTED"),

@@ -3,42 +3,27 @@
 import random
 from dataclasses import replace
 from fractions import Fraction
-from functools import cache
 
 import pytest
-from mpmath import mpf
 
-from proofs.search.s34_persistence import prove
-from proofs.trusted.certificate import Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s34_circle.border import Border, Passes
 from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
 from proofs.trusted.parameters import PAPER
 from tests.oracles.judge import oracle
-from tests.proofs.trusted.paper.steps import add, apply, derive, edited
+from tests.proofs.trusted.paper.steps import apply, evidence, known_of
 
 pytestmark = pytest.mark.slow
-ETA, NU = mpf("0.2121"), mpf("-0.2")
 RESTS, PASSES = "superstable-motion-2", "passes-separation-1"
 
 
-@cache
-def evidence():
-    return prove(PAPER, ("G15",))
-
-
-@cache
 def known():
-    return derive(evidence().steps)
-
-
-def kinds(*left_out):
-    return [x for name, x in known().items() if name not in left_out]
+    return known_of("persistence")
 
 
 def test_what_is_said():
-    decision = find("G15").decide(PAPER, kinds())
+    decision = find("G15").decide(PAPER, [x for _, x in evidence("persistence").proofs["G15"]])
     assert find("G15").own and decision.verdict.value == "VERIFIED"
     low, high = decision.quantities["epsilon_border"]
     assert low < Fraction("0.3611125") < high < low + Fraction(11, 10**7)
@@ -47,50 +32,6 @@ def test_what_is_said():
     assert "before the first phi_s after it lands" in decision.theorem
     for found in (known()[RESTS], known()[PASSES]):
         assert oracle(found, random.Random(1)) == []
-
-
-@pytest.mark.parametrize(
-    "left_out", [(RESTS,), (PASSES,), ("superstable-motion-1",), (RESTS, PASSES)]
-)
-def test_nothing_is_decided_without_any_of_them(left_out):
-    assert find("G15").decide(PAPER, kinds(*left_out)).verdict.value == "UNDECIDED"
-
-
-def test_elsewhere_nothing_is_decided():
-    of = replace(PAPER, eta=Fraction("0.2122"))
-    assert find("G15").decide(of, kinds()).verdict.value == "UNDECIDED"
-
-
-FLIES, CELL = (PASSES, "witness"), (RESTS, "witness", "cells", 0)
-
-
-@pytest.mark.parametrize(
-    ("path", "change"),
-    [
-        ((*CELL, "epsilon"), lambda ends: ["9028/25000"] * 2),
-        ((*CELL, "epsilon"), lambda ends: ["361113/1000000"] * 2),
-        ((*CELL, "epsilon"), lambda ends: ["72223/200000"] * 2),
-        ((*CELL, "epsilon"), lambda ends: [ends[0], "180557/500000"]),
-        ((*CELL, "epsilon"), lambda ends: ["9027/25000", ends[1]]),
-        ((*CELL, "rest"), lambda text: "7"),
-        ((*CELL, "ratio"), lambda text: "1/4"),
-        ((*CELL, "bounces"), lambda bounces: bounces[:-1]),
-        ((*CELL, "bounces"), lambda bounces: bounces[1:]),
-        ((*CELL, "bounces", 3, 1), add("1e-9")),
-        ((*FLIES, "epsilon"), lambda text: "45139/125000"),
-        ((*FLIES, "epsilon"), lambda text: "0"),
-        ((*FLIES, "epsilon"), lambda text: "1"),
-        ((*FLIES, "bounces"), lambda bounces: bounces[:-1]),
-        ((*FLIES, "bounces"), lambda bounces: [*bounces, bounces[-1]]),
-        ((*FLIES, "bounces"), lambda bounces: []),
-        ((*FLIES, "bounces", 0), lambda ends: ends[::-1]),
-    ],
-)
-def test_an_edited_witness_is_refused(path, change):
-    steps = {k: x for k, x in evidence().steps.items() if k in ("separation-1", path[0])}
-    derive(steps)
-    with pytest.raises((Unproved, Malformed)):
-        derive(edited(steps, path, change))
 
 
 def test_a_border_needs_all_in_order():

@@ -228,26 +228,11 @@ def later(made, turns):
     graph_of(made)[1][0]["turn"] = turns
 
 
-def bracket(made, place, end):
-    """A bracket so close to one end of the window that the impact is not in it."""
-    entry = graph_of(made)[0]["images"][place]
-    times = list(map(F, entry["time"]))
-    times[1 - end] = times[end] + (F(1, 1000) if end == 0 else -F(1, 1000))
-    entry["time"] = texts(times)
-
-
 SHIFT_LIES = {
-    **{
-        f"bracket {k} at end {end} of its window": partial(bracket, place=k, end=end)
-        for k, end in ((0, 0), (1, 1), (2, 0), (3, 1))
-    },
-    **{f"images after {x} turns": partial(later, turns=x) for x in ("0", "3", "5", "9", "-1")},
     "a flight twice": twice,
     "half a set": halved,
-    "one branch": lambda made: graph_of(made)[0]["branches"].pop(),
-    "a branch twice": lambda made: graph_of(made)[0].update(branches=["branch-2", "branch-2"]),
-    "a wider hull": lambda made: graph_of(made)[0].update(states=[["1", "2"]]),
-    "more symbols": lambda made: graph_of(made)[0].update(growth="3"),
+    "images after 3 turns": partial(later, turns="3"),
+    "images after 5 turns": partial(later, turns="5"),
 }
 
 

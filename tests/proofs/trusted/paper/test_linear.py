@@ -303,20 +303,5 @@ def test_gap_function(ratios, expected):
     assert expected is VERIFIED or "linear" not in decision.witness
 
 
-@pytest.mark.parametrize(("eta0", "eta1", "falls"), [(0.1905, 0.2381, True), (0.5, 0.6, False)])
-def test_gap_function_against_values(eta0, eta1, falls):
-    """q(x) = ((1 - eta1)/eta0 + x)^s - 1 - x^s at the two sides of eta0 + eta1 = 1."""
-    low, high = 0.0, 50.0
-    for _ in range(100):
-        s = (low + high) / 2
-        low, high = (s, high) if eta0**s + eta1**s > 1 else (low, s)
-
-    def q(x):
-        return ((1 - eta1) / eta0 + x) ** low - 1 - x**low
-
-    assert (q(0.5) > q(1) > q(3)) is falls
-    assert abs(q(eta1 / eta0)) < 1e-12
-
-
 def test_both_pairs_of_ratios():
     assert [each.ratios for each in linear_sets(PAPER)] == [EXACT, ROUNDED]

@@ -1,9 +1,7 @@
 """Claims N1-N3: verdicts against independent numbers, and certificates that must be rejected."""
 
-import copy
 import json
 import math
-import random
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
@@ -12,11 +10,9 @@ import pytest
 from mpmath import mp, mpf
 
 from proofs.shell.groups import produce
-from proofs.trusted.certificate import Malformed
 from proofs.trusted.files import render
-from proofs.trusted.kernel.meter import Exhausted
 from proofs.trusted.parameters import PAPER
-from proofs.trusted.verify import Rejected, check
+from proofs.trusted.verify import check
 from tests.proofs.trusted.paper import reference
 
 
@@ -86,41 +82,6 @@ def image(numbers, state, begin=0.1):
     return (phi + low) % math.tau, velocity
 
 
-def symbol(state):
-    phases = ((1.11, 1.15), (1.27, 1.32))
-    return next((i for i, (low, high) in enumerate(phases) if low <= state[0] <= high), None)
-
-
-def test_barred_words_are_not_seen_and_others_are():
-    random.seed(1)
-    seen = set()
-    for _ in range(600):
-        state = (random.choice((1.11, 1.27)) + random.uniform(0, 0.05), random.uniform(-0.45, 0))
-        word = []
-        while (now := symbol(state)) is not None and len(word) < 6:
-            word.append(now)
-            state = image((0.2121, -0.2, 0.01), state, 24.0 if state[0] < 1.2 else 56.0)
-        seen.update(tuple(word[i:j]) for i in range(len(word)) for j in range(i + 1, len(word) + 1))
-    assert {(0, 0), (0, 1), (1, 0), (1, 1)} <= seen
-    assert not seen & {(1, 1, 1, 1, 1), (0, 0, 1, 1), (1, 0, 1, 1), (0, 1, 1, 1)}
-
-
-@pytest.mark.parametrize("edge", [1.11, 1.15, 1.27, 1.32])
-def test_full_orbits_without_22_have_no_state_on_an_edge(edge):
-    """So Lambda_2 is in the open rectangles: V2 is followed by V1 there, V1 by either; velocities
-    before impacts are in (-0.45, 0).
-    """
-    for gamma in (-0.45, -0.3, -0.15, 0.0):
-        state, word = (edge, gamma), []
-        for _ in range(2):
-            state = image((0.2121, -0.2, 0.01), state, 24.0 if state[0] < 1.2 else 56.0)
-            word.append(symbol(state))
-            assert -0.45 < state[1] < 0
-            if word[-1] is None:
-                break
-        assert word[0] != 0 if edge > 1.2 else word in ([None], [1, None], [1, 1])
-
-
 def other(**change):
     """Other numbers, with an I that holds all sets of phases."""
     return replace(PAPER, interval=pair_of("1.1", "1.4"), **change)
@@ -188,15 +149,6 @@ def test_verdicts_and_what_is_said(of, verdicts, texts):
 # -- what must be rejected -------------------------------------------------------------------------
 
 
-def broken(made_of, change):
-    """Why a certificate is rejected after a change."""
-    certificate = copy.deepcopy(made_of[1])
-    change(certificate)
-    with pytest.raises((Rejected, Malformed)) as failure:
-        check(json.dumps(certificate))
-    return str(failure.value)
-
-
 def entry(certificate, claim):
     return next(one for one in certificate["claims"] if one["id"] == claim)
 
@@ -205,96 +157,5 @@ def steps(certificate, rule):
     return [step["witness"] for step in certificate["steps"].values() if step["rule"] == rule]
 
 
-def widened(values):
-    low, high = map(Fraction, values)
-    share = Fraction(1, 20)
-    return [str(low - abs(low) * share), str(high + abs(high) * share)]
-
-
-@pytest.mark.parametrize(
-    ("path", "change", "reason"),
-    [
-        (("function", "eta"), widened, ""),
-        (("function", "nu"), widened, ""),
-        (("function", "epsilon"), widened, ""),
-        (("box", 0), widened, ""),
-        (("box", 1), lambda x: [x[0], "1/2"], "launch"),  # from inside the table
-        (("box", 1), lambda x: ["-2/5", x[1]], ""),
-        (("box",), lambda x: x[:1], "entries"),
-        (("box",), lambda x: x[::-1], ""),
-        (("turns",), lambda x: [str(int(x[0]) + 1)], ""),
-        (("turns",), lambda x: ["1/2"], "integer"),
-        (("turns",), lambda x: [], "entries"),
-        (("cuts",), lambda x: ["0"], "increase"),
-        (("cuts",), lambda x: x * 2, "increase"),
-        (("cuts",), lambda x: ["2"], "increase"),
-        (("function", "eta"), lambda x: ["-1", "1"], "required"),
-        (("function", "eta"), lambda x: ["0", "1"], "required"),
-        (("function", "nu"), lambda x: ["-1/5", "1/5"], "positive or negative"),
-        (("function", "nu"), lambda x: ["0", "1/5"], "positive or negative"),
-        (("function", "epsilon"), lambda x: ["-1/100", "1/100"], "required"),
-        (("function", "epsilon"), lambda x: ["1/100", "11/10"], "required"),
-        (("function", "gravity"), lambda x: ["0", "0"], "unknown field"),
-        (("function",), lambda x: "F", "names no function"),
-    ],
-)
-def test_impacts_are_not_talked_into(paper, path, change, reason):
-    def edit(certificate):
-        one = steps(certificate, "rectangle")[0]
-        for key in path[:-1]:
-            one = one[key]
-        old = one[path[-1]] if isinstance(one, list) else one.get(path[-1])
-        assert old != change(old)
-        one[path[-1]] = change(old)
-
-    assert reason in broken(paper, edit)
-
-
 def without(index):
     return lambda names: [name for k, name in enumerate(names) if k != index]
-
-
-@pytest.mark.parametrize(
-    ("rule", "field", "change"),
-    [
-        *(("golden-mean", "words", without(index)) for index in range(4)),
-        ("golden-mean", "part", lambda x: "rectangle-1"),
-        ("horseshoe", "rectangles", lambda x: ["rectangle-1", "rectangle-2"]),
-        ("horseshoe", "rectangles", lambda x: x[::-1]),
-        ("horseshoe", "arrows", lambda x: [["1"], ["1", "2"]]),
-        ("barred-word", "word", lambda x: x[:2]),
-        ("barred-word", "word", lambda x: ["1"] * len(x)),
-        ("barred-word", "word", lambda x: ["2", "3"]),
-        ("barred-word", "word", lambda x: []),
-        ("barred-word", "from", lambda x: "below"),
-        ("barred-word", "from", lambda x: "left"),
-        ("barred-word", "rectangles", lambda x: x[::-1]),
-        ("barred-word", "rectangles", lambda x: x[:1] * 2),
-        ("barred-word", "rectangles", lambda x: ["barred-word-1", "rectangle-1"]),
-    ],
-)
-def test_theorems_are_not_talked_into(paper, rule, field, change):
-    def edit(certificate):
-        one = steps(certificate, rule)[0]
-        assert one[field] != change(one[field])
-        one[field] = change(one[field])
-
-    broken(paper, edit)
-
-
-@pytest.mark.parametrize(
-    ("field", "value"),
-    [("eta", "1061/5000"), ("epsilon", "1/50"), ("nu", "-19/100"), ("velocities", ["-1/2", "0"])],
-)
-def test_other_parameters(paper, field, value):
-    broken(paper, lambda certificate: certificate["parameters"].update({field: value}))
-
-
-@pytest.mark.slow
-def test_too_much_work(paper):
-    certificate = copy.deepcopy(paper[1])
-    one = steps(certificate, "rectangle")[0]
-    low, high = map(Fraction, one["box"][0])
-    one["cuts"] = [str(low + (high - low) * k / 4000) for k in range(1, 4000)]
-    with pytest.raises(Exhausted):
-        check(json.dumps(certificate), 10**6)

@@ -3,7 +3,6 @@
 import json
 from dataclasses import replace
 from fractions import Fraction
-from itertools import product
 
 import pytest
 
@@ -22,7 +21,7 @@ from proofs.trusted.paper import find
 from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.verdicts import Verdict
-from tests.proofs.trusted.paper.test_nonplastic import broken, image, made, pair_of, slow
+from tests.proofs.trusted.paper.test_nonplastic import made, pair_of, slow
 from tests.proofs.trusted.paper.test_rectangle_theorems import (
     EXACT,
     GAMMA,
@@ -241,24 +240,6 @@ def test_sentences_carry_place_sets_and_numbers():
 # -- what is proved for boxes, against other arithmetic --------------------------------------------
 
 
-def least_overshoot(of, sets):
-    """By how much the four edges go beyond at the corners of the box."""
-    margins = []
-    for numbers in product(*(map(float, side) for side in of.box.sides)):
-        for ends, gamma in product(sets, map(float, of.velocities)):
-            margins.append(sets[0][0] - image(numbers, (ends[0], gamma))[0])
-            margins.append(image(numbers, (ends[1], gamma))[0] - sets[1][1])
-    return min(margins)
-
-
-@pytest.mark.slow
-def test_edges_go_beyond_at_the_corners_of_the_box():
-    assert 0.0515 < least_overshoot(WIDE, ((1.09, 1.18), (1.25, 1.35))) < 0.06
-    assert least_overshoot(PLASTIC, ((1.1, 1.15), (1.27, 1.32))) > 0.0004
-    assert least_overshoot(PAPER, ((1.1, 1.17), (1.26, 1.34))) > 0.0171
-    assert least_overshoot(PAPER, ((1.11, 1.16), (1.27, 1.33))) < 0  # N1's: for the point alone
-
-
 PLASTIC = replace(
     reaching(PAPER, "0.00005", "0.00005", 0),
     epsilon=Fraction(0),
@@ -302,27 +283,6 @@ def test_what_is_said_of_a_box(of, verdict, texts):
     assert claim["verdict"] == verdict
     said = " ".join(claim[part] or "" for part in ("witness", "corrected", "why"))
     assert [text for text in texts if text not in said] == []
-
-
-@pytest.mark.slow
-def test_v1_v2_v2_v2_is_not_seen():
-    """Even the rightmost image of V1 leaves V2 to the left."""
-    phase = image((0.2121, -0.2125, 0.01), (1.18, 0.0))[0]
-    assert 1.25 < phase < 1.35
-    for _ in range(2):
-        phase = image((0.2121, -0.2125, 0.01), (phase, 0.0))[0]
-    assert phase < 1.25
-
-
-@pytest.mark.slow
-def test_a_box_in_parts_without_holes():
-    box = made(reaching(WIDE, "0.0001", "0.002", "0.004"), "N4")
-    entries, certificate = box
-    assert entries["N4"]["verdict"] == "VERIFIED"
-    unions = [n for n, step in certificate["steps"].items() if step["rule"] == "horseshoe-union"]
-    assert unions
-    for name in unions:
-        broken(box, lambda edited, name=name: edited["steps"][name]["witness"]["parts"].pop())
 
 
 @pytest.mark.slow
@@ -374,45 +334,3 @@ def test_the_command_refuses_other_boxes(tmp_path, capsys, reach):
     assert leaving.value.code == 2
     assert "reach" in capsys.readouterr().err
     assert not (tmp_path / "new").exists()
-
-
-# -- certificates edited on purpose ----------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    "reach",
-    [
-        ["1/20000", "1/20000", "1/199"],
-        ["1/20000", "1/19999", "1/200"],
-        ["1/19999", "1/20000", "1/200"],
-        ["1/20000", "1/20000", "1/201"],
-        None,
-    ],
-)
-def test_the_box_is_what_is_stated(reach):
-    def change(edited):
-        edited["parameters"]["reach"] = reach
-
-    broken(made(WIDE, "N4"), change)
-
-    def renewed(edited):
-        change(edited)
-        of = parameters_from_json(Reader(edited["parameters"]))
-        edited["claims"][0]["statement"] = find("N4").says(of)
-
-    if reach not in (None, ["1/20000", "1/20000", "1/201"]):  # these are inside what is proved
-        broken(made(WIDE, "N4"), renewed)
-
-
-@pytest.mark.parametrize("side", ["eta", "nu", "epsilon"])
-def test_parts_of_the_box_narrowed(side):
-    """Rectangles for less than the box are proved all the same, the claim is not."""
-
-    def change(certificate):
-        for step in certificate["steps"].values():
-            if step["rule"] == "rectangle":
-                sides = step["witness"]["function"]
-                low, high = map(Fraction, sides[side])
-                sides[side] = [str(low), str(high - (high - low) / 10**6)]
-
-    broken(made(WIDE, "N4"), change)

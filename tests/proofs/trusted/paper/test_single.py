@@ -17,12 +17,8 @@ from intervals import Undecided
 from proofs.commands import single_impact
 from proofs.motion.single_orbits import last_period, solutions
 from proofs.motion.system import System
-from proofs.motion.window_ends import earlier, eta_end, graze_end, nu_end
 from proofs.trusted.equations import Clock
 from proofs.trusted.paper.s4_single.orbits import (
-    FLIP,
-    SADDLE,
-    STICK,
     distance,
     excess,
     records,
@@ -80,15 +76,6 @@ def test_solutions_and_orbits_are_those_the_oracle_sees():
             seen[one.admissible] += 1
             assert not one.admissible or (one.multiplier[0] < 0) == (of.nu > 0)
     assert min(seen.values()) > 10
-
-
-def test_an_orbit_that_sticks_need_not_solve_16():
-    """Why P1 is about masses that leave at once: (0.2121, -0.2), one impact in four periods."""
-    eta, nu = mpf("0.2121"), mpf("-0.2")
-    leave = reference.separation_phase(eta, nu)
-    time, phi = reference.first_impact(eta, nu, leave + mpf(10) ** -20)
-    assert abs((leave + time - phi) / (2 * mp.pi) - 4) < 1e-15
-    assert abs(reference.left_side_10(eta, nu, phi, 8 * mp.pi)) > 0.1
 
 
 def test_closed_forms_of_a_solution():
@@ -171,88 +158,7 @@ def slope_18(eta, nu, n, phi):
     return top / (-eta * h * s + nu * mp.cos(phi) * c - nu * mp.cos(phi))
 
 
-@pytest.mark.parametrize("n", [1, 2, 48])
-@pytest.mark.parametrize("end", [FLIP, STICK])
-def test_ends_in_eta_against_mpmath(n, end):
-    bounds = eta_end(Fraction("0.2"), n, end, 100)
-    nu = mpf("0.2")
-
-    def equations(eta, phi):
-        last = (
-            slope_18(eta, nu, n, phi) + 1
-            if end == FLIP
-            else reference.launch_acceleration(eta, nu, phi)
-        )
-        return [reference.left_side_10(eta, nu, phi, 2 * mp.pi * n) * 100, last]
-
-    one = solutions(System(bounds[0], Fraction("0.2")), n, 80)[0]
-    found = mp.findroot(equations, (middle(bounds), middle(one.phase)))
-    assert abs(found[0] - middle(bounds)) < mpf(10) ** -28
-    assert bounds[1] - bounds[0] == Fraction(2, 2**100)
-
-
-@pytest.mark.parametrize(
-    ("n", "end", "expected"),
-    [
-        (1, STICK, "0.238918491150609"),
-        (1, FLIP, "0.322333094279495"),
-        (3, SADDLE, "0.290475553530403"),
-        (3, STICK, "0.327089604037986"),
-        (4, SADDLE, "0.039035349130376"),
-    ],
-)
-def test_ends_in_nu_against_closed_forms(n, end, expected):
-    eta, x = mpf("0.237"), mp.pi * n * mpf("0.237")
-    e, c = (eta * mp.tan(x)) ** 2, mp.cos(x)
-    p = {SADDLE: -e, STICK: eta**2, FLIP: eta**2 * (1 + 1 / c**2)}[end]
-    nu = mp.sqrt(p**2 + e) / (1 - p)
-    bounds = nu_end(Fraction("0.237"), n, end, 100)
-    assert real(bounds[0]) < nu < real(bounds[1])
-    assert mp.nstr(nu, 15)[:14] == expected[:14]
-
-
-def test_ends_beyond_amplitude_one_are_none():
-    assert nu_end(Fraction("0.237"), 2, STICK, 100) is None  # at nu = 3.06
-    assert nu_end(Fraction("0.237"), 2, FLIP, 100) is None  # p > 1 there
-
-
-def test_stable_inside_a_window_and_not_outside():
-    for n in (1, 5):
-        flip, stick = (eta_end(Fraction("0.2"), n, end, 60) for end in (FLIP, STICK))
-        step = Fraction(1, 10**9)
-        for eta, expected in (
-            (flip[0] - step, (True, False)),
-            (flip[1] + step, (True, True)),
-            (stick[0] - step, (True, True)),
-            (stick[1] + step, (False, False)),
-        ):
-            one = solutions(System(eta, Fraction("0.2")), n, 80)[0]
-            assert (one.admissible, one.stable) == expected
-
-
-def test_earlier_impacts_of_long_flights():
-    eta = Fraction("0.237")
-    assert earlier(eta, 4) is None and earlier(eta, 3) is None
-    time = earlier(eta, 21)
-    assert time is not None
-    of = system("0.237", "-0.03")
-    (one,) = [x for x in solutions(of, 21, 80) if abs(x.multiplier[0]) < 1]
-    phi = middle(one.phase)
-    gap = reference.left_side_10(mpf("0.237"), mpf("-0.03"), phi, real(time))
-    assert -gap < 0 < time < 42 * 3.1415
-
-
 # -- a table below: lemmas 6 to 8 ------------------------------------------------------------------
-
-
-def saddle_node(n, nu, low, high):
-    """About the eta where eta |tan(pi n eta)|, which falls, is |nu|/sqrt(1 - nu^2)."""
-    depth = math.tan(math.asin(-nu))
-    for _ in range(60):
-        middle_one = (low + high) / 2
-        above = -middle_one * math.tan(math.pi * n * middle_one) > depth
-        low, high = (middle_one, high) if above else (low, middle_one)
-    return high
 
 
 def below(n, eta, nu):
@@ -268,100 +174,6 @@ def below(n, eta, nu):
         return mass - 1 + p * (1 - np.cos(t)) - eta * tangent * np.sin(t)
 
     return inside, p
-
-
-def test_lemma_6_what_decides_a_window_falls_and_is_convex():
-    for n in (1, 2, 7):
-        eta = np.linspace(0.5 / n, 1 / n, 2001)[1:]
-        e = (eta * np.tan(np.pi * n * eta)) ** 2
-        assert (np.diff(e) < 0).all()
-        assert (np.diff(e, 2)[1:-2] > 0).all()
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("nu", [-0.05, -0.2, -0.3])
-def test_lemma_7_no_stable_orbit_with_longer_flights_but_one(nu):
-    """By scans of the gap, from just after the saddle-nodes; n = 1, 3/2 < eta < 2 has some."""
-    seen = set()
-    for n in range(1, 13):
-        times = np.linspace(0, math.tau * n, 300 * n + 1)[2:-2]
-        for m in range(1, int(2.6 * n)):
-            low, high = (m + 0.5) / n, (m + 1) / n
-            about = saddle_node(n, nu, low + 1e-9, high)
-            for share in (1e-6, 1e-4, 1e-3, 0.01, 0.1, 0.5, 0.9):
-                inside, p = below(n, about + (high - about) * share, nu)
-                if inside is not None and p < about**2 and inside(times).max() < 0:
-                    seen.add((n, m))
-    assert seen == {(1, 1)}
-
-
-@pytest.mark.parametrize("nu", [-0.05, -0.2, -0.3])
-def test_lemma_8_the_flight_of_half_the_springs_period(nu):
-    """D < 0 away from pi; concave there, and growing with eta, while p < 0."""
-    saddle = saddle_node(1, nu, 1.5001, 2)
-    far = np.concatenate(
-        (np.linspace(0.05, math.pi - 5 / 7, 99), np.linspace(math.pi + 5 / 7, 6.2))
-    )
-    near, before = math.pi + np.linspace(-5 / 7, 5 / 7, 101), None
-    for eta in np.linspace(saddle + 1e-9, 2, 40)[:-1]:
-        inside, p = below(1, eta, nu)
-        if p >= 0:
-            assert inside(math.pi) > 0
-            continue
-        assert (inside(far) < 0).all()
-        now = inside(near)
-        assert (np.diff(now, 2) < -(1 / 5) * (near[1] - near[0]) ** 2).all()
-        assert before is None or (now > before).all()
-        before = now
-    assert before is not None
-
-
-@pytest.mark.parametrize(
-    ("n", "end", "low", "high"),
-    [
-        (1, SADDLE, "1/2", "1"),
-        (3, SADDLE, "1/6", "1/3"),
-        (3, STICK, "1/6", "1/3"),
-        (1, SADDLE, "3/2", "2"),
-    ],
-)
-def test_ends_for_a_table_below_against_mpmath(n, end, low, high):
-    bounds = eta_end(Fraction("-0.2"), n, end, 100, (Fraction(low), Fraction(high)))
-    nu = mpf("-0.2")
-
-    def equations(eta, phi):
-        last = (
-            slope_18(eta, nu, n, phi) - 1
-            if end == SADDLE
-            else reference.launch_acceleration(eta, nu, phi)
-        )
-        return [reference.left_side_10(eta, nu, phi, 2 * mp.pi * n), last]
-
-    inner = bounds[1] + Fraction(1, 10**6) if end == SADDLE else bounds[0] - Fraction(1, 10**9)
-    one = min(solutions(System(inner, Fraction("-0.2")), n, 80), key=lambda x: x.multiplier)
-    found = mp.findroot(equations, (middle(bounds), middle(one.phase)), tol=1e-50)
-    assert abs(found[0] - middle(bounds)) < mpf(10) ** -28
-
-
-def test_the_end_by_grazing_against_mpmath():
-    """Three equations: (10) after 2 pi; gap and gap' at an earlier time."""
-    saddle = eta_end(Fraction("-0.2"), 1, SADDLE, 60, (Fraction(3, 2), Fraction(2)))
-    bounds, touch = graze_end(Fraction("-0.2"), float(saddle[1]), 100)
-    nu, eta = mpf("-0.2"), middle(bounds)
-    inner = System(bounds[0] - Fraction(1, 10**9), Fraction("-0.2"))
-    one = min(solutions(inner, 1, 80), key=lambda x: x.multiplier)
-
-    def equations(eta, phi, time):
-        def gap(t):
-            return reference.left_side_10(eta, nu, phi, t)
-
-        return [gap(2 * mp.pi), gap(time), mp.diff(gap, time)]
-
-    found = mp.findroot(equations, (eta, middle(one.phase), real(touch)))
-    assert abs(found[0] - eta) < mpf(10) ** -25 and abs(found[2] - real(touch)) < mpf(10) ** -20
-    assert one.admissible and one.stable
-    outer = System(bounds[1] + Fraction(1, 10**9), Fraction("-0.2"))
-    assert not any(x.admissible for x in solutions(outer, 1, 80) if x.multiplier[1] < 1)
 
 
 # -- the command ---------------------------------------------------------------------------------

@@ -6,20 +6,16 @@ import random
 from fractions import Fraction
 from functools import cache, partial
 
-import numpy as np
 import pytest
 
 from intervals import Undecided
 from proofs.plane.singles import SingleFlights, propose
-from proofs.trusted.certificate import Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.gaps import first_windows
 from proofs.trusted.paper.beyond.singles import Part, StableSingles, parts
 from proofs.trusted.parameters import Place
 from proofs.trusted.verify import Rejected, check
 from tests.oracles.judge import oracle
-from tests.oracles.motion import TURN, Impact, flight
-from tests.oracles.singles import repeating
 from tests.oracles.singles import stable as count
 from tests.oracles.sources import committed
 
@@ -249,69 +245,3 @@ def test_what_sticks_is_no_orbit_of_plastic_impacts_and_may_be_one_of_others():
     (part,) = parts(at, 1)
     assert part.contracts and not part.has_one(())
     assert not Part(place("0.228", "0.2", "0.01"), 1, 0).has_none(())
-
-
-@pytest.mark.parametrize(
-    "change",
-    [
-        lambda w: w.update(most="0"),
-        lambda w: w.update(most="101"),
-        lambda w: w.update(most="3/2"),
-        lambda w: w["stable"].append(w["stable"][0]),
-        lambda w: w["stable"].append(entry(6)),
-        lambda w: w["none"].append(entry(1)),
-        lambda w: w["none"].append(entry(0)),
-        lambda w: w["none"].append(entry(2, 0)),
-        lambda w: w["none"].append(entry(2, 1001)),
-        lambda w: w["none"].append(entry(2, 1, ["2", "1"])),
-        lambda w: w["none"].append(entry(2, 1, ["0", "1"])),
-        lambda w: w["none"].append(entry(2) | {"more": "1"}),
-        lambda w: w.pop("none"),
-    ],
-)
-def test_what_is_malformed(change):
-    with pytest.raises(Malformed):
-        check(changed(SHORT, change))
-
-
-# -- by iteration ----------------------------------------------------------------------------------
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("epsilon", [None, "0.3"])
-def test_motions_from_anywhere_settle_on_a_stable_orbit_only_where_there_is_one(epsilon):
-    """Launches at random are followed: what repeats with one impact in n turns is proved to."""
-    rng, settled = random.Random(3), 0
-    for box, _ in random_boxes(60, 11):
-        at = Place(box.eta, box.nu, None if epsilon is None else (F(epsilon),) * 2)
-        try:
-            (found,) = check(propose(at, 6).certificate()).conclusions
-        except (Undecided, Rejected):
-            continue
-        eta, nu = at.eta[0], at.nu[1]
-        own = F(epsilon or 0)
-        starts = [(rng.uniform(0, 6.28), rng.uniform(-1, 1)) for _ in range(6)]
-        for n in found.stable:
-            assert any(
-                reached(eta, nu, own, (phi + 1e-5, gamma), 80) == n
-                for phi, gamma in repeating(float(eta), float(nu), float(own), n)
-            )
-        for start in starts:
-            n = reached(eta, nu, own, start, 150)
-            assert n is None or n > found.most or n in found.stable
-            settled += n is not None
-    assert settled
-
-
-def reached(eta, nu, epsilon, start, most):
-    """The n of the single-impact orbit that a motion settles on; None if it does not so soon."""
-    phi, gamma = start
-    for _ in range(most):
-        found = flight(eta, nu, F(phi), epsilon, F(gamma), latest=300)
-        if not isinstance(found, Impact):
-            return None
-        phase, speed, last = found.phase, float(found.velocity), (phi, gamma)
-        phi, gamma = phase, speed
-    turns = float(found.time) / TURN
-    same = np.allclose([math.sin(phi - last[0]), gamma], [0, last[1]], atol=1e-7)
-    return round(turns) if same and abs(turns - round(turns)) < 1e-7 else None

@@ -7,18 +7,14 @@ from functools import cache
 import pytest
 
 from proofs.search import s32_dimension as dimension
-from proofs.shell import groups
-from proofs.trusted.files import render
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Phases, within
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s32_sets.repeller import Repeller
 from proofs.trusted.paper.s34_circle.thin import ThinShift
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
-from proofs.trusted.verify import check
-from tests.proofs.trusted.paper.steps import moved_to
+from tests.proofs.trusted.paper.steps import evidence
 
 DIGITS = 8
 pytestmark = pytest.mark.slow  # proofs of both sets
@@ -26,13 +22,8 @@ pytestmark = pytest.mark.slow  # proofs of both sets
 DIMENSIONS = {2: Fraction("0.39532516076918945"), 3: Fraction("0.6752674894042916")}
 
 
-@cache
-def evidence():
-    return dimension.prove(PAPER, ["G19"], digits=DIGITS)
-
-
 def conclusions():
-    return [found for _, found in evidence().proofs["G19"]]
+    return [found for _, found in evidence("dimension").proofs["G19"]]
 
 
 def decide(found, of=PAPER):
@@ -58,15 +49,6 @@ def test_one_sentence_says_all_of_it():
     assert shifts()[3].shift.sentence in sentence
     for part in ("0.675267489", "0.5915470", "escape at a rate between 0.525014"):
         assert part in sentence
-
-
-@pytest.mark.parametrize("kind", [StayingSet, Repeller])
-def test_nothing_is_decided_without(kind):
-    found = [each for each in conclusions() if not isinstance(each, kind)]
-    assert decide(found).verdict is Verdict.UNDECIDED
-    elsewhere = replace(PAPER, nu=Fraction("-0.21")).place
-    moved = [moved_to(x, elsewhere) if isinstance(x, kind) else x for x in conclusions()]
-    assert decide(moved).verdict is Verdict.UNDECIDED
 
 
 def test_one_growth_is_not_enough():
@@ -120,13 +102,6 @@ def test_the_domains_lie_in_the_cells():
     domains = Phases(Fraction("1.3"), Fraction("1.34")), true.repeller.domains[1]
     with pytest.raises(Unproved, match="cell"):
         ThinShift(true.shift, replace(true.repeller, domains=domains), true.escape)
-
-
-def test_the_certificate_is_accepted():
-    line, entry = groups.decide("G19", PAPER, evidence(), DIGITS)
-    document = render(groups.certificate(PAPER, evidence().steps, [entry]))
-    (claim,) = check(document).claims
-    assert (claim.id, claim.verdict, line.verdict) == ("G19", Verdict.VERIFIED, Verdict.VERIFIED)
 
 
 def test_elsewhere_there_may_be_none():

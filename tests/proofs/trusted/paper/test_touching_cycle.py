@@ -5,7 +5,6 @@ Against the gap typed by hand, at the paper's oscillator; and without each hypot
 
 from dataclasses import replace
 from fractions import Fraction as F
-from pathlib import Path
 
 import flint
 import pytest
@@ -13,18 +12,16 @@ from mpmath import mpf
 
 from proofs.trusted.paper.s34_circle.cycles import Cycles, touching
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts
-from proofs.trusted.verify import premises
 from tests.oracles.adapter import view
 from tests.oracles.laps import graze
+from tests.proofs.trusted.paper.steps import known_of
 
-ROOT = Path(__file__).parents[4]
 ETA, NU = mpf("0.2121"), mpf("-0.2")
 
 
 @pytest.fixture(scope="module")
 def found():
-    context = premises((ROOT / "reports" / "entropy.json").read_text(encoding="utf-8"))
-    (cycles,) = (each for each in context.known.values() if isinstance(each, Cycles))
+    (cycles,) = (each for each in known_of("entropy").values() if isinstance(each, Cycles))
     return cycles
 
 

@@ -8,8 +8,9 @@ import pytest
 
 from intervals import DomainError, Formula, IntervalArray
 from intervals.contractor import contracted
-from tests.reference.itf1788_run import FOLDER
-from tests.reference.itl import Box, binary64, read
+from tests.reference.vectors import Box, statements
+
+pytestmark = pytest.mark.slow
 
 OF_ONE = {
     "sqrRev": lambda x: x.sqr(),
@@ -40,11 +41,12 @@ def problem(statement):
 
 
 def array(box):
-    low, high = (float(binary64(x)) for x in box[:2])
-    return IntervalArray.from_floats([low], [high])
+    return IntervalArray.from_floats([box.lower], [box.upper])
 
 
-LOOSE = {("powRev2", 609)}  # a^x >= 2, a in [1/4, 1/2]: x <= -1/2, but the vector has all numbers
+LOOSE = {
+    "pow_rev.itl, line 609"
+}  # a^x >= 2, a in [1/4, 1/2]: x <= -1/2, but the vector has all numbers
 
 
 def outcome(statement):
@@ -53,7 +55,7 @@ def outcome(statement):
     Refused: a box over which the formula has no enclosure, such as x^-1 with 0 inside.
     """
     f, boxes, target = problem(statement)
-    (expected,) = statement.tightest
+    (expected,) = statement.results
     try:
         found, empty = contracted(Formula(f, len(boxes)), boxes, [target])
     except DomainError:
@@ -68,34 +70,32 @@ def outcome(statement):
     return "same" if (least == x).all() else "wider"
 
 
-def statements():
-    everything = [s for p in FOLDER.glob("*.itl") for s in read(p.read_text(encoding="utf-8"))]
-    reverse = [s for s in everything if "Rev" in s.operation and "Pair" not in s.operation]
-    return [s for s in reverse if not s.problem and len(s.tightest) == 1]
+def asked():
+    """The statements of reverse operations with one result and no empty operand."""
+    reverse = [s for s in statements() if "Rev" in s.operation and len(s.results) == 1]
+    return [s for s in reverse if problem(s)]
 
 
-@pytest.mark.slow
 def test_results_hold_those_of_the_vectors():
-    known = [s for s in statements() if problem(s)]
-    outcomes = {(s.operation, s.line): outcome(s) for s in known}
+    outcomes = {s.place: outcome(s) for s in asked()}
     assert {place for place, kind in outcomes.items() if kind == "wrong"} == LOOSE
     kinds = Counter(outcomes.values())
     assert kinds["same"] > 600 and kinds["wider"] > 300 and kinds["refused"] < 600
 
 
 def test_the_loose_vector():
-    (loose,) = (s for s in statements() if (s.operation, s.line) in LOOSE)
+    (loose,) = (s for s in asked() if s.place in LOOSE)
     f, boxes, target = problem(loose)
     (_, x), _ = contracted(Formula(f, 2), boxes, [target])
     assert x.inf == -inf and -0.5 <= x.sup < -0.5 + 1e-9
 
 
 def test_a_result_that_is_too_narrow_is_wrong(monkeypatch):
-    statement = next(s for s in statements() if s.operation == "sqrRev" and problem(s))
+    statement = next(s for s in asked() if s.operation == "sqrRev")
     assert outcome(statement) == "same"
     monkeypatch.setattr(
-        "tests.reference.test_itf1788_reverse.contracted",
+        "tests.reference.test_reverse.contracted",
         lambda formula, boxes, targets: ((IntervalArray([0]),), np.array([False])),
     )
-    wider = statement._replace(tightest=(Box(-1, 1),))
+    wider = statement._replace(results=(Box(-1, 1),))
     assert outcome(wider) == "wrong"
