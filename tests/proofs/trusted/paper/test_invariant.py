@@ -49,6 +49,7 @@ def proved():
     return json.loads((REPORTS / "sets.json").read_text())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("left", "right"),
     [
