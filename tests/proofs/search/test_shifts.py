@@ -84,7 +84,7 @@ def test_where_f_decreases_theorems_and_dimension_are_those_of_the_oracle(fallin
     low = replace(falling, slopes=(F(2), F(9)))
     found = prove(low, ("H2",))
     line = decide("H2", low, found, 15)[0]
-    assert line.verdict is Verdict.REFUTED and "decreasing on 0, 1" in line.corrected
+    assert line.verdict is Verdict.REFUTED and "decreasing on 0, 1" in line.truth
     sets = produce({"sets": ("H7", "H10"), "dimension": ("H13",)}, falling, digits=10)
     assert [x.verdict.value for x in sets.lines] == ["VERIFIED", "VERIFIED", "REFUTED"]
     told = premises(sets.certificate).known.values()
