@@ -11,11 +11,12 @@ from typing import Any
 from intervals import Undecided
 from proofs.motion.brackets import impact_times
 from proofs.motion.witness import BLIND, FLOATS, FlightBox, march
-from proofs.trusted.certificate import SCHEMA, box_to_json, render, texts
+from proofs.trusted.certificate import SCHEMA, texts
 from proofs.trusted.equations import launch_acceleration
-from proofs.trusted.flights import COVER_BITS, Motion
+from proofs.trusted.files import box_to_json, render
+from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.gaps import falls
-from proofs.trusted.numbers import Range
+from proofs.trusted.numbers import COVER_BITS, Range
 from proofs.trusted.parameters import Place
 
 _HALVINGS = 1  # of phases whose flights are too different

@@ -13,6 +13,9 @@ from tests.oracles import (
     formulas,
     kernel,
     laps,
+    lines,
+    outcomes,
+    planar,
     plastic,
     restitution,
     sets,
@@ -23,10 +26,11 @@ from tests.oracles.adapter import view
 
 MODULES = (
     *(plastic, sets, circle, laps, restitution, single, singles, formulas, kernel, beyond),
-    curves,
+    *(curves, outcomes),
 )
 OTHER_NAMES = {
     "Impact": plastic.point,
+    "Graze": outcomes.graze,
     "Separation": circle.separation_arc,
     "Between": laps.narrow,
     "Uncovered": sets.exact_measure,  # of which it is a consequence of the names alone
@@ -42,7 +46,8 @@ def judge_of(kind):
 
 def judge(record, rng):
     """Complaints about a record that `adapter.view` made."""
-    return judge_of(record.kind)(record, rng)
+    own = planar.is_of_a_file(getattr(record, "base", record)) and lines.JUDGES.get(record.kind)
+    return (own or judge_of(record.kind))(record, rng)
 
 
 def oracle(conclusion, rng, of=None):
