@@ -19,14 +19,14 @@ from proofs.trusted.rules import RULES
 ROOT = Path(__file__).parents[1]
 GENERATED = ["docs/api.md", "docs/systems.md"]
 BUDGETS = {
-    "proofs": 54_100,
+    "proofs": 54_140,
     "proofs/trusted": 21_890,
     "proofs/search, proofs/motion": 8_620,
     "proofs/shell": 1_760,
     "proofs/benchmark": 1_880,
     "proofs/stress": 1_350,
     "tests": 45_600,
-    "words of the docs": 12_150,  # of those that are written by hand, the README with them
+    "words of the docs": 12_000,  # of those that are written by hand, the README with them
     "rules outside the kernel": 33,
     "loose modules": 9,  # of the package proofs
     "tracked files": 1_055,
