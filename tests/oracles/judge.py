@@ -13,6 +13,7 @@ from tests.oracles import (
     formulas,
     kernel,
     laps,
+    outcomes,
     plastic,
     restitution,
     sets,
@@ -23,10 +24,11 @@ from tests.oracles.adapter import view
 
 MODULES = (
     *(plastic, sets, circle, laps, restitution, single, singles, formulas, kernel, beyond),
-    curves,
+    *(curves, outcomes),
 )
 OTHER_NAMES = {
     "Impact": plastic.point,
+    "Graze": outcomes.graze,
     "Separation": circle.separation_arc,
     "Between": laps.narrow,
     "Uncovered": sets.exact_measure,  # of which it is a consequence of the names alone

@@ -10,7 +10,7 @@ from typing import Any
 
 from intervals import IntervalError, Undecided
 from proofs.methods import derive
-from proofs.methods.bifurcation.certify import charts, confirm
+from proofs.methods.bifurcation.certify import charts
 from proofs.methods.bifurcation.classify import Class, classified
 from proofs.methods.bifurcation.normal_forms import NormalForm
 from proofs.methods.bifurcation.solving import (
@@ -20,10 +20,9 @@ from proofs.methods.bifurcation.solving import (
     points,
     roots_of,
 )
-from proofs.methods.lemmas import Lemmas
+from proofs.methods.lemmas import Lemmas, derived
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.solutions import solution
-from proofs.trusted.kernel.values import Equal, Series, value
+from proofs.trusted.kernel.values import Equal, Series
 
 _SIGN_BITS = 200
 ROOT = "root"  # a parameter, where the closed form has a root of parameters; the next is root2
@@ -135,16 +134,15 @@ def _uses(point: Solution, name: str) -> bool:
 
 def _classified(file: Lemmas, form: NormalForm, point: Solution, parameter: str) -> Closed:
     """Classify a candidate, and add the proof; what fails in it is told as why it is dropped."""
-    numbers, steps = Numbers(file, form, point, parameter), dict(file.steps)
+    numbers = Numbers(file, form, point, parameter)
     try:
-        numbers.require_defined()
-        found = classified(form.kind, len(form.map.state) == 2, numbers.sign)
-        if numbers.open_domain:
-            found = found._replace(where=(*found.where, "the map is defined"))
-        numbers.prove()
+        with file.undone():
+            numbers.require_defined()
+            found = classified(form.kind, len(form.map.state) == 2, numbers.sign)
+            if numbers.open_domain:
+                found = found._replace(where=(*found.where, "the map is defined"))
+            numbers.prove()
     except Undecided as failure:
-        file.steps.clear()
-        file.steps.update(steps)
         return Closed(point, Class("undecided", str(failure)), {})
     return Closed({**point, **numbers.values}, found, numbers.signs)
 
@@ -205,11 +203,11 @@ class Numbers:
 
     def _proved_sign(self, text: str) -> int:
         """Prove the sign of a number, and that it is defined."""
-        try:
-            low, high = self.file.bounds(text, 6, _SIGN_BITS)
-        except (IntervalError, Unproved) as failure:
-            raise Undecided(f"{text[:60]} is not defined: {failure}") from None
-        confirm(self.file, list(self.file.steps)[-1], value)
+        with derived():
+            try:
+                low, high = self.file.bounds(text, 6, _SIGN_BITS)
+            except (IntervalError, Unproved) as failure:
+                raise Undecided(f"{text[:60]} is not defined: {failure}") from None
         if low <= 0 <= high:
             raise Undecided(f"whether {text[:40]} is 0")
         return 1 if low > 0 else -1
@@ -268,13 +266,9 @@ class Numbers:
         if self._normal is not None:
             sides = [*self._conjugate(), Equal.read(self.form.criticality, "critical")]
             sides.append(Equal.read(self.form.speed(self.parameter), "speed"))
-        name = self.file.solution(
-            {name: derive.write(value) for name, value in given.items()},
-            *rest,
-            *sides,
-            *self._lemmas,
-        )
-        confirm(self.file, name, solution)
+        values = {name: derive.write(value) for name, value in given.items()}
+        with derived():
+            self.file.solution(values, *rest, *sides, *self._lemmas)
 
     def _conjugate(self) -> list[Equal] | list[Series]:
         """Return that the map is the normal form in the chart, see `normal_forms`.
