@@ -13,13 +13,13 @@ from tests.oracles.judge import judge, judge_of
 from tests.oracles.motion import TURN, ball
 from tests.oracles.plastic import between, lifted
 from tests.oracles.sources import (
+    about_curves,
     boxes,
     certificates,
     classes,
     committed_conclusions,
     committed_rows,
     conclusions,
-    curves,
     lemmas,
     proved,
     rows,
@@ -65,7 +65,7 @@ def by_hand():
     from proofs.trusted.paper.s32_sets.moran import NoGap
     from proofs.trusted.parameters import Place
 
-    return NoGap((F(1, 2), F(3, 5))), OnlyTouches(Place.plastic(F(1), F(-2))), *curves()
+    return NoGap((F(1, 2), F(3, 5))), OnlyTouches(Place.plastic(F(1), F(-2))), *about_curves()
 
 
 def test_every_class_of_conclusions_has_an_oracle_and_is_proved_and_made_false():
@@ -234,7 +234,6 @@ FALSE = {
     "Branch": [
         put("windows", lambda old: tuple((low + 60, high + 60) for low, high in old)),
         put("windows", lambda old: tuple((low, (low + high) / 2) for low, high in old)),
-        put("turn", lambda old: old + 2),
     ],
     "EntropyBound": [
         offs("entropy"),

@@ -14,6 +14,7 @@ from intervals import Undecided
 from proofs import Map, System
 from proofs.commands.system import main
 from proofs.methods.grammar import GrammarError
+from proofs.trusted.kernel.enclose import enclosed, point_box
 from proofs.trusted.verify import Rejected, check
 
 HENON = Map("1 - 1.4*x^2 + y", "0.3*x")
@@ -163,6 +164,29 @@ def test_an_orbit_of_the_billiard_whose_flights_last_half_a_period():
         abs(sum(side) / 2 - Fraction(near[x])) < 1e-7
         for side, x in zip(orbit.box, "sxvw", strict=True)
     )
+
+
+@pytest.mark.long
+def test_the_horseshoe_of_roesslers_flow():
+    """CAPD proves that on two sets the second return has the entropy log 2, at least."""
+    system = System.example("roessler")
+    system.effort = 5
+    (entropy,) = accepted(system.horseshoe())
+    assert (entropy.growth, entropy.length) == (2, 1)
+    assert "at the 2nd `t > 0` at which `x` rises through 0" in entropy.sentence
+
+
+def test_a_later_return_is_that_of_the_iterate():
+    """The solution goes on from the section: P2 = P P, enclosed on ways of their own."""
+    system = System.example("roessler")
+    file = system._derivation(**system._return(2))
+    once, twice = file.map("P"), file.map("P2")
+    for point in (("-8.4", "0.03"), ("-5.2", "0.031")):
+        x = enclosed(point_box(tuple(map(Fraction, point))), 64)
+        both = zip(once.values(once.values(x)), twice.values(x), strict=True)
+        assert all(max(a.lo, b.lo) <= min(a.hi, b.hi) for a, b in both)
+        assert max(b.hi - b.lo for b in twice.values(x)) >> 24 == 0
+    assert system._return(1) == BALL._return(2) == {}
 
 
 @pytest.mark.slow

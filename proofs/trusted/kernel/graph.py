@@ -6,10 +6,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.kernel.arithmetic import Unproved, log
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.covers import MAX_POWER, Covers, HSet, disjoint
+from proofs.trusted.kernel.elementary import log
 from proofs.trusted.kernel.enclose import integer
 from proofs.trusted.kernel.maps import Map, same_state
 from proofs.trusted.kernel.meter import METER
@@ -98,15 +99,16 @@ def graph(context: Context, reader: Reader) -> Graph:
     """
     (names,) = reader.fields("covers")
     steps = tuple(context.step(name, Covers) for name in names.items(least=1))
-    first, of_source = steps[0].local, dict[int, Map]()
+    first, maps = steps[0].local, dict[int | str, Map]()
     places: dict[int, int] = {}
     nodes: list[HSet] = []
     edges: dict[tuple[int, int], Covers] = {}
     for name, step in zip(names.items(), steps, strict=True):
         local = step.local
         ends = (local.source, local.target)
-        if of_source.setdefault(id(ends[0]), local.map) != local.map:
-            raise name.fail("a relation of another map from the same set")
+        for key in (id(ends[0]), local.map.name):
+            if maps.setdefault(key, local.map) != local.map:
+                raise name.fail("a relation of another map from the same set, or of the same name")
         if local.power != first.power or (local.map != first.map and local.power > 1):
             raise name.fail("a relation of another map or iterate")
         if not same_state(local.map, first.map):

@@ -6,15 +6,14 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.conclusion import Conclusion, given
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.differential import given
 from proofs.trusted.kernel.enclose import Box, integer
 from proofs.trusted.kernel.maps import Map
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.kernel.rates import Cone, Rates, rates
 from proofs.trusted.kernel.rectangles import Rectangle, crossing, follows, require_together
-from proofs.trusted.numbers import floor_text, show_range
+from proofs.trusted.numbers import floor_text, increasing, show_range
 
 _MOST = 64  # rectangles
 
@@ -59,7 +58,7 @@ class Horseshoe(Conclusion):
 
 def horseshoe(context: Context, reader: Reader) -> Horseshoe:
     """Rule `horseshoe`: {rectangles N_1, ..., N_n: names, arrows: for each those that follow, by
-    number, cone: [slope, width]}.
+    increasing numbers, cone: [slope, width]}.
 
     Hypotheses: 1. All are about one map F; they are disjoint; in each the image's x is monotone in
     x, and images do not reach around the circle of an angle x. 2. Of each N_i the left edge goes to
@@ -93,6 +92,8 @@ def horseshoe(context: Context, reader: Reader) -> Horseshoe:
         tuple(integer(each, 1, count) - 1 for each in row.items(1, count))
         for row in arrows_of.items(count, count)
     )
+    if not all(map(increasing, arrows)):
+        raise arrows_of.fail("the numbers of those that follow one do not increase")
     parts = [part for each in rectangles for part in each.parts]
     METER.get().spend(4 * count * len(parts))
     return Horseshoe(

@@ -12,7 +12,7 @@ import pytest
 
 from intervals import Undecided
 from proofs.methods.symbolic import SymbolicLemmas
-from proofs.trusted.certificate import render
+from proofs.trusted.files import render
 from proofs.trusted.verify import check
 
 MODULUS = "sqrt(x**2)"

@@ -15,7 +15,8 @@ import numpy as np
 import pytest
 
 from proofs import Oscillator
-from proofs.trusted.certificate import Malformed, Reader, render
+from proofs.trusted.certificate import Malformed, Reader
+from proofs.trusted.files import render
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.enclose import enclosed, point_box
 from proofs.trusted.kernel.maps import read_map

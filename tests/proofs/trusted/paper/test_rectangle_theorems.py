@@ -253,10 +253,10 @@ FALLS = ((pair_of(-6, -5), STEEP[0][1]), STEEP[1])
 OTHER = replace(EXACT, eta=pair_of("0.2", "0.2"))
 
 
-def golden(first=V1, second=V2, part=PART, words=WORDS):
+def golden(first=V1, second=V2, part=PART, words=WORDS, names=("a", "b")):
     known = {"a": first, "b": second, "n": part} | {f"w{n}": x for n, x in enumerate(words)}
-    names = [name for name in known if name.startswith("w")]
-    return prove("golden-mean", known, rectangles=["a", "b"], part="n", words=names)
+    barred = [name for name in known if name.startswith("w")]
+    return prove("golden-mean", known, rectangles=[*names], part="n", words=barred)
 
 
 def test_golden_mean():
@@ -295,6 +295,12 @@ def test_golden_mean():
 def test_golden_mean_needs_all(change):
     with pytest.raises(Unproved):
         golden(**change)
+
+
+@pytest.mark.parametrize("names", ["a", "aba"])
+def test_golden_mean_needs_two_rectangles(names):
+    with pytest.raises(Malformed):
+        golden(names=names)
 
 
 def test_golden_mean_needs_restitution():
