@@ -73,6 +73,21 @@ def ranges_of(map_: Map) -> tuple[Range, ...]:
     raise TypeError(f"no way to sample a {type(map_).__name__}")
 
 
+def shut(map_: Map, region: Sequence[Range]) -> str:
+    """Return a gap that is < 0 right after all launches from a box that are tried; "" if none."""
+    if not isinstance(map_, Flight):
+        return ""
+    shares = np.random.default_rng(0).random((len(region), _STARTS))
+    low, high = np.array([[float(end) for end in side] for side in region]).T[:, :, None]
+    soon = np.full(_STARTS, _STEP / 1024)
+    sampled, formulas = Sampled(map_), map_.formulas
+    with np.errstate(all="ignore"):
+        gaps = sampled._evaluated(
+            formulas, formulas.roots[: len(map_.gaps)], [*(low + (high - low) * shares), soon]
+        )
+    return next((str(gap) for gap, x in zip(map_.walls, gaps, strict=True) if (x < 0).all()), "")
+
+
 @dataclass(frozen=True)
 class Sampled:
     """A map on arrays of points, of the shape (n, points); nan where it is not defined.
