@@ -143,7 +143,7 @@ class Map:
             name, iterate = (next(iter(later)), 1) if later else (self.function, power)
             candidates = Candidates(saddles, self.region(box), iterate, self._share)
             try:
-                return _theorem(file, find_horseshoe(file, name, candidates))
+                return theorem_of(file, find_horseshoe(file, name, candidates))
             except Undecided as error:
                 reason = error
         raise reason
@@ -154,7 +154,7 @@ class Map:
 
         file = self._derivation()
         sides = self.region(box)
-        return _theorem(file, [prove_all_orbits(file, self.function, period, sides)])
+        return theorem_of(file, [prove_all_orbits(file, self.function, period, sides)])
 
     def branches(self, **parameter: Ends) -> Theorem:
         """Follow the fixed points that are found at the low end of a parameter's range, up to high.
@@ -167,7 +167,7 @@ class Map:
         (moving,) = self._moving(parameter, 1)
         file = self.at(**parameter)._derivation()
         file = branches(file, self.function, moving, self.region())
-        return _theorem(file, [*file.steps])
+        return theorem_of(file, [*file.steps])
 
     def folds(self, **parameters: Ends) -> Theorem:
         """Follow curves of fixed points with the multiplier 1 over the second of two parameters.
@@ -188,7 +188,7 @@ class Map:
         one, two = self._moving(parameters, 2)
         file = self.at(**parameters)._derivation()
         file = curves(file, self.function, (one, two), multiplier, self.region())
-        return _theorem(file, [*file.steps])
+        return theorem_of(file, [*file.steps])
 
     def _moving(self, parameters: Mapping[str, Ends], count: int) -> list[Any]:
         from proofs.methods.branches import Moving
@@ -234,7 +234,7 @@ class Map:
         steps = prove_orbits(file, self.function, cycles)
         if not steps:
             raise Undecided(otherwise)
-        return _theorem(file, steps)
+        return theorem_of(file, steps)
 
     def _cycles(
         self, period: int, box: Box | None, near: Sequence[Mapping[str, Exact]] = ()
@@ -283,12 +283,9 @@ class Map:
         from proofs.trusted.kernel.enclose import enclosed
         from proofs.trusted.numbers import ceil_text, floor_text
 
-        if {*state} != {*self.variables}:
-            wanted = ", ".join(f"{each}=..." for each in self.variables)
-            raise ValueError(f"a value for each variable is expected: {wanted}")
-        box = [ends_of(state[each]) for each in self.variables]
+        box = box_of(self.variables, state)
         try:
-            values = file.map(function).values(enclosed(tuple(box), _BITS))
+            values = file.map(function).values(enclosed(box, _BITS))
         except Unproved as error:
             raise Undecided(str(error)) from None
         bounds = [
@@ -296,10 +293,11 @@ class Map:
             for low, high in (value.range for value in values)
         ]
         witness = {"function": function, "box": list(map(texts, box)), "tree": None}
-        return _theorem(file, [file.add("image", {**witness, "bounds": bounds})])
+        return theorem_of(file, [file.add("image", {**witness, "bounds": bounds})])
 
 
-def _theorem(file: Any, steps: Sequence[str]) -> Theorem:
+def theorem_of(file: Any, steps: Sequence[str]) -> Theorem:
+    """Return what some steps conclude, with their certificate."""
     return Theorem(tuple(map(file.conclusion, steps)), file.certificate(*steps))
 
 
@@ -319,6 +317,14 @@ def optional(parameters: Mapping[str, Ends], periods: Mapping[str, str]) -> dict
     angles = {each: canonical(period) for each, period in periods.items()}
     fields = {"parameters": ranges, "periods": angles}
     return {field: value for field, value in fields.items() if value}
+
+
+def box_of(variables: Sequence[str], state: Mapping[str, Ends]) -> tuple[Range, ...]:
+    """Return the sides of a box of states, in the order of the variables."""
+    if {*state} != {*variables}:
+        wanted = ", ".join(f"{each}=..." for each in variables)
+        raise ValueError(f"a value for each variable is expected: {wanted}")
+    return tuple(ends_of(state[each]) for each in variables)
 
 
 def ends_of(values: Ends) -> Range:

@@ -10,28 +10,31 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from copy import copy
 from importlib.resources import files
 from pathlib import Path
 from typing import Any, Self
 
 from intervals import Undecided
-from proofs.map import Ends, Map, ends_of, optional
+from proofs.map import Ends, Map, box_of, ends_of, optional, theorem_of
 from proofs.methods.grammar import GrammarError, canonical, name
 from proofs.methods.orders import FirstOrder, first_order
 from proofs.theorem import Theorem
 
 _HEAD = {"variables", "time", "motion"}
-_ADVICE = {  # what a reason means in the motion, and the next step
-    "the gap is < 0 right after launch": "the mass is pressed against a wall, where it rests or "
-    "sticks, or the state is one before an impact; give one after it, with which the gap opens",
+_ADVICE = {  # what a reason means in the motion, what is not proved, and the next step
     "it is not proved that the gap is > 0": "where impacts get slower and slower, as in chatter, "
-    "none of them is next to a launch like that; give states that leave the wall faster",
+    "none of them is next to a launch like that, and that they accumulate is not proved; give "
+    "states that leave the wall faster, or ask for `rest`",
     "a gap is not proved > 0 at launch": "give a state between the walls",
-    "a graze": "the motion may touch a wall there; give fewer states, or ones away from the touch",
-    "no impact": "the mass may never hit a wall again; look at its gap for late times",
-    "another gap": "two walls may be hit at once; give fewer states",
+    "a graze": "the motion may touch a wall there; give fewer states, or ask for `graze`",
+    "no impact": "the mass may never hit a wall again, which is proved where its gap is bounded "
+    "from below, term by term, for all late times",
+    "> 0 up to the time": "two walls may be hit at once, and then no state after it is given; "
+    "give fewer states",
     "the impact is not": "the motion may touch the wall there; give fewer states",
+    "the gap is < 0 right after launch": "give a state with which the gap opens",
 }
 _MORE = {"title", "source", "units", "parameters", "periods", "region", "flow", "impact", "end"}
 _END = {"time", "section", "direction", "count"}
@@ -113,23 +116,68 @@ class System(Map):
         return sorted(each.removesuffix(".toml") for each in names if each.endswith(".toml"))
 
     def impact(self, *, wall: str = "", **state: Ends) -> Theorem:
-        """Enclose the next impact after a state, or after all states of a box: state and time.
+        """Prove what comes after a state, or after all states of a box.
 
-        wall: that of the impact before, the first without one. The next one is with any wall.
+        That is the next impact, state and time; or that there is none ever; or that no flight
+        begins, the motion being pressed against the wall. wall: that of the impact before, the
+        first without one. The next impact is with any wall.
         """
-        from proofs.methods.derivation import Derivation
-
-        if wall and wall not in self.walls:
-            raise ValueError(f"no wall {wall!r}; there are {', '.join(self.walls)}")
-        before, reasons = self.walls.index(wall) if wall else 0, []
+        before, reasons = self._wall(wall), []
         for after in range(len(self.walls)):
-            timed = Derivation({"Impact": self._file.map(before, after, timed=True)})
+            timed = self._flights("Impact", self._file.map(before, after, timed=True))
             try:
                 return self._image(timed, "Impact", state)
             except Undecided as error:
                 reasons.append(str(error))
+        for rule in ("pressed", "no_impact"):
+            with suppress(Undecided):
+                return self._outcome(rule, self._file.map(before, before), state)
         told = (f"{why}: {advice}" for x, advice in _ADVICE.items() for why in reasons if x in why)
         raise Undecided(next(told, reasons[-1]))
+
+    def graze(self, *, wall: str = "", **state: Ends) -> Theorem:
+        """Prove that a value of the variable with a range is followed by a graze, if one is found.
+
+        graze(phi="0.3", v=("1", "2")): wall: that of the impact before; the wall that is touched is
+        the first, in the order of the file, with which a graze is found.
+        """
+        before, reason = self._wall(wall), Undecided("no graze is seen")
+        for after in range(len(self.walls)):
+            try:
+                return self._outcome("graze", self._file.map(before, after), state)
+            except Undecided as error:
+                reason = error
+        raise reason
+
+    def rest(self, *, wall: str = "", **state: Ends) -> Theorem:
+        """Prove that the motion rests, or sticks, at a wall, from states of contact.
+
+        They are those of the key `rest` of the wall, for these values of the other variables.
+        """
+        from proofs.methods.outcomes import resting
+
+        before = self._wall(wall)
+        contact = self._file.contact(before)
+        return self._outcome("pressed", resting(self._file.map(before, before), contact), state)
+
+    def _wall(self, wall: str) -> int:
+        if wall and wall not in self.walls:
+            raise ValueError(f"no wall {wall!r}; there are {', '.join(self.walls)}")
+        return self.walls.index(wall) if wall else 0
+
+    def _flights(self, name: str, function: Mapping[str, Any]) -> Any:
+        from proofs.methods.derivation import Derivation
+
+        return Derivation({name: function})
+
+    def _outcome(
+        self, rule: str, function: Mapping[str, Any], state: Mapping[str, Ends]
+    ) -> Theorem:
+        from proofs.methods import outcomes
+
+        file = self._flights("Flight", function)
+        box = box_of(function["variables"], state)
+        return theorem_of(file, [getattr(outcomes, rule)(file, "Flight", box)])
 
 
 class _Read:
@@ -216,9 +264,19 @@ class _Read:
         own = _table(self.impacts[wall].get("at", {}), "at")
         return {**self.parameters, **{name(each): value for each, value in own.items()}}
 
+    def contact(self, wall: int) -> dict[str, str]:
+        """Return what variables are, by formulas of the others, where the motion rests."""
+        impact = self.impacts[wall]
+        if "rest" not in impact:
+            raise GrammarError("[[impact]] has no 'rest': it says what the state is in contact")
+        rest = {name(each): text for each, text in _table(impact["rest"], "rest").items()}
+        if unknown := sorted({*rest} - {*self.state}):
+            raise GrammarError(f"rest: {unknown[0]} is none of the variables")
+        return {each: self._formula(text, f"{each} at rest") for each, text in rest.items()}
+
     def _impact(self, wall: int) -> Mapping[str, Any]:
         impact, which = self.impacts[wall], "end" if "end" in self.file else "impact"
-        keys = {*self.state, *(_END if which == "end" else {"gap", "wall", "at"})}
+        keys = {*self.state, *(_END if which == "end" else {"gap", "wall", "at", "rest"})}
         if unknown := sorted({*impact} - keys):
             raise GrammarError(f"unknown key {unknown[0]!r} of {which}; keys are {_listed(keys)}")
         first = "gap" if which == "impact" else "time" if "time" in impact else "section"

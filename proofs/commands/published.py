@@ -198,6 +198,8 @@ def _flows() -> list[Published]:
     """Return the systems whose flow has no closed form."""
     roessler, lorenz = System.example("roessler"), System.example("lorenz")
     oscillator, duffing = System.example("van-der-pol"), System.example("duffing-wall")
+    patient = System.example("roessler")
+    patient.effort = 5  # a box takes a fifth of a second
     stiff = System.example("van-der-pol", m="2")
     return [
         _of(
@@ -207,6 +209,7 @@ def _flows() -> list[Published]:
                 "orbits-1": lambda: roessler.orbits(1),
                 "orbits-2": lambda: roessler.orbits(2),
                 "orbits-3": lambda: roessler.orbits(3),
+                "horseshoe": patient.horseshoe,
             },
             [
                 "The map is the first return to the half plane x = 0, x rising. In the direction "
@@ -214,8 +217,7 @@ def _flows() -> list[Published]:
             ],
             [
                 "that there are no other orbits of these periods",
-                "a horseshoe: covering relations of wide sets need more work than a file is given "
-                "by default",
+                "uniqueness in the horseshoe: derivatives on its sets are enclosed too widely",
                 "an attractor: no rule says that an image lies in the interior of a box",
             ],
         ),

@@ -40,12 +40,20 @@ _MOST = 12  # theorems of an answer on the screen
 _ASKED = ("orbits:1", "orbits:2", "stable", "horseshoe")
 T = TypeVar("T")
 _SIDE = r"[a-z]\w*=[^:,]+:[^:,]+"
+_STATE = r"[a-z]\w*=[^:,]+(:[^:,]+)?"
 _ASK = re.compile(
     rf"orbits:[1-9][0-9]?|stable|horseshoe|branches:{_SIDE}|(folds|flips):{_SIDE},{_SIDE}"
+    rf"|(impact|graze|rest):{_STATE}(,{_STATE})*"
 )
-_ASKABLE = "orbits:N, stable, horseshoe, branches:P=A:B, folds:P=A:B,Q=C:D and flips, as folds"
+_ASKABLE = (
+    "orbits:N, stable, horseshoe, impact:X=A,Y=B, graze:X=A,Y=B:C, rest:X=A:B, branches:P=A:B, "
+    "folds:P=A:B,Q=C:D and flips, as folds"
+)
 _STATEMENTS = {
     "orbits": "periodic orbits of this least period exist",
+    "impact": "after these states: the next impact, or that there is none, or no flight at all",
+    "graze": "a value of the variable with a range is followed by a graze",
+    "rest": "in contact with the wall the motion rests or sticks, at these states",
     "branches": "branches of fixed points over this range of a parameter",
     "folds": "curves of fixed points with the multiplier 1, over the second range",
     "flips": "curves of fixed points with the multiplier -1, over the second range",
@@ -62,6 +70,7 @@ examples:
   python -m proofs system --map "r*x*(1 - x)" --set r=3.9 --box x=0:1 --json -
   python -m proofs system --example bouncing-ball --set e=0.499:0.501 --ask orbits:1
   python -m proofs system --example bouncing-ball --ask folds:g=0.6:1,e=0.45:0.5
+  python -m proofs system --example wall --ask impact:a=0.3,v=-1 graze:a=0.3,v=-3:-0.1
 """
 
 
@@ -217,6 +226,11 @@ def _answer(system: Map, asked: str) -> Answer:
         if kind in ("branches", "folds", "flips"):
             sides = dict(map(_pair, more.split(",")))
             theorem = getattr(system, kind)(**{name: _side(ends) for name, ends in sides.items()})
+        elif kind in ("impact", "graze", "rest"):
+            if not isinstance(system, System):
+                raise ValueError(f"{kind} is asked of systems, not of maps")
+            state = {name: _ends(value) for name, value in map(_pair, more.split(","))}
+            theorem = getattr(system, kind)(**state)
         else:
             theorem = system.orbits(int(more)) if more else getattr(system, kind)()
     except Undecided as error:

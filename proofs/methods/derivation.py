@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -24,8 +25,11 @@ class Derivation:
 
     def __post_init__(self) -> None:
         for name, function in self.functions.items():
-            each = Reader(function, f"$.functions.{name}")
-            self.context.functions[name] = read_map(name, each, self.context.functions)
+            self._define(name, function)
+
+    def _define(self, name: str, function: Any) -> None:
+        known = self.context.functions
+        known[name] = read_map(name, Reader(function, f"$.functions.{name}"), known)
 
     def map(self, name: str) -> Map:
         """Return a function as the checker reads it."""
@@ -46,23 +50,38 @@ class Derivation:
         for name in names:
             del self.steps[name], self.context.known[name]
 
+    @contextmanager
+    def undone(self) -> Iterator[None]:
+        """Take back the steps and functions made inside if that fails; the failure goes on."""
+        made = self.functions, dict(self.steps), dict(self.context.known)
+        try:
+            yield
+        except Exception:
+            self.functions, self.steps, self.context.known = made
+            raise
+
     def conclusion(self, name: str) -> Conclusion:
         """Return what a step concludes."""
         return self.context.known[name]
 
+    def document(self, *claims: str) -> dict[str, Any]:
+        """Return what a certificate of some steps says, with what they need.
+
+        Without names all steps but h-sets are claims.
+        """
+        named = claims or [name for name, step in self.steps.items() if step["rule"] != "h-set"]
+        needed = used_steps(Reader(self.steps), {*named})
+        return {
+            "schema": SCHEMA,
+            "parameters": None,
+            "functions": _needed(self.functions, needed),
+            "steps": {name: step for name, step in self.steps.items() if name in needed},
+            "claims": list(named),
+        }
+
     def certificate(self, *claims: str) -> str:
-        """Return the text of a certificate of some steps, with what they need."""
-        needed = used_steps(Reader(self.steps), {*claims})
-        functions = _needed(self.functions, needed)
-        return render(
-            {
-                "schema": SCHEMA,
-                "parameters": None,
-                "functions": functions,
-                "steps": {name: step for name, step in self.steps.items() if name in needed},
-                "claims": list(claims),
-            }
-        )
+        """Return the text of a certificate of some steps."""
+        return render(self.document(*claims))
 
 
 def _needed(functions: Mapping[str, Any], names: set[str]) -> dict[str, Any]:

@@ -1,8 +1,8 @@
 """Lemma files: find the witnesses of rules about formulas, and write them down.
 
 Each method of Lemmas finds the witness of the rule of its name with the package `intervals` and
-adds a step; the checker, which has its own arithmetic, derives the step again. Raises Undecided
-where no witness is found.
+adds a step, which the checker's rule concludes. Raises Undecided where no witness is found,
+Unproved where the rule denies one.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from fractions import Fraction
 from typing import Any
 
 from intervals import Interval, Undecided, decimal_bounds
+from proofs.methods.derivation import Derivation
 from proofs.methods.formulas import (
     Tree,
     Values,
@@ -23,7 +24,7 @@ from proofs.methods.formulas import (
     subdivide,
     values,
 )
-from proofs.trusted.certificate import SCHEMA, Reader, texts
+from proofs.trusted.certificate import Malformed, Reader, texts
 from proofs.trusted.kernel import zeros
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.enclose import Box, Differentiable, centre_of, point_box
@@ -31,6 +32,7 @@ from proofs.trusted.kernel.enclose import enclosed as box_of
 from proofs.trusted.kernel.formulas import Formulas, read_formulas
 from proofs.trusted.kernel.head import read_function
 from proofs.trusted.kernel.maps import Map
+from proofs.trusted.kernel.meter import DEFAULT, Exhausted, metered
 from proofs.trusted.kernel.solutions import Expressions
 from proofs.trusted.kernel.trees import formula
 from proofs.trusted.kernel.values import Equal, Series
@@ -104,41 +106,27 @@ def solution_witness(found: Expressions) -> dict[str, Any]:
 
 
 @dataclass
-class Lemmas:
+class Lemmas(Derivation):
     """A lemma file in the making: functions {name: (variables, texts) or JSON}, and its steps."""
 
     functions: Mapping[str, Any] = field(default_factory=dict)
-    steps: dict[str, dict[str, Any]] = field(default_factory=dict)
 
-    def document(self, *claims: str) -> dict[str, Any]:
-        """Return the file's content; without names all steps but h-sets are claims."""
-        named = [name for name, step in self.steps.items() if step["rule"] != "h-set"]
-        return {
-            "schema": SCHEMA,
-            "parameters": None,
-            "functions": {name: self.json(name) for name in self.functions},
-            "steps": self.steps,
-            "claims": list(claims) or named,
-        }
+    def __post_init__(self) -> None:
+        given, self.functions = self.functions, {}
+        for name, function in given.items():
+            self.define(name, function)
 
-    def json(self, name: str) -> Mapping[str, Any]:
-        """Return a function as it is written in a file."""
-        function = self.functions[name]
-        if isinstance(function, Mapping):
-            return function
-        variables, texts_of = function
-        return {"variables": list(variables), "values": list(texts_of)}
+    def define(self, name: str, function: Any) -> None:
+        """Add a function: (variables, texts), or as it is written in a file."""
+        if not isinstance(function, Mapping):
+            variables, values_of = function
+            function = {"variables": list(variables), "values": list(values_of)}
+        self._define(name, function)
+        self.functions = {**self.functions, name: function}
 
     def function(self, name: str) -> Formulas:
-        """Return a function as the checker reads it."""
-        return read_function(name, Reader(self.json(name)))
-
-    def add(self, rule: str, witness: dict[str, Any]) -> str:
-        """Add a step, return its name."""
-        kind = rule.removeprefix("formula-")
-        number = 1 + sum(step["rule"] == rule for step in self.steps.values())
-        self.steps[f"{kind}-{number}"] = {"rule": rule, "witness": witness}
-        return f"{kind}-{number}"
+        """Return a formula as the checker reads it."""
+        return read_function(name, Reader(self.functions[name]))
 
     # -- values and equations ------------------------------------------------------------------
 
@@ -275,6 +263,19 @@ def krawczyk(
     with undecided():
         image = zeros.krawczyk(map_, piece, centre or centre_of(box), matrix, (axis, bits))
         return {k: each.range for k, each in image.items()}
+
+
+@contextmanager
+def derived() -> Iterator[None]:
+    """Say Undecided for what sympy finds and the checker does not conclude, or not soon.
+
+    It may rest on identities that the checker has not: exp(log(x)) = x, for one.
+    """
+    try:
+        with metered(DEFAULT):
+            yield
+    except (Unproved, Malformed, Exhausted) as failure:
+        raise Undecided(f"what sympy finds is not derived by the checker: {failure}") from None
 
 
 @contextmanager

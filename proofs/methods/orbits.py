@@ -27,10 +27,10 @@ Source: the contraction principle for inverse branches, and the shadowing bound 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import prod
 from typing import Protocol
 
 import numpy as np
@@ -137,33 +137,43 @@ def _enclose_orbit(
     domains = [Interval(*of.domains[j], precision=precision) for j in symbols]
     scales = [max(map(abs, of.domains[j])) / 10**digits for j in symbols]
     centres = [Interval.from_float(x, precision=precision) for x in starts]
-    boxes: list[Interval] = []
+    boxes = list[Interval]()
+    before: Fraction | float = math.inf
     while True:
         ahead = [*centres[1:], centres[0]]
         defects = [of.defect(*each) for each in zip(symbols, centres, ahead, strict=True)]
         if not boxes:
             reach = max(defect.mag for defect in defects) / (of.expansion - 1)
-            spread = (centre.widen(reach) for centre in centres)
-            boxes = [_common(*each) for each in zip(spread, domains, strict=True)]
-        images = [
-            box.hull(centre + defect)
-            for box, centre, defect in zip([*boxes[1:], boxes[0]], ahead, defects, strict=True)
-        ]
-        around = [box.hull(centre) for box, centre in zip(boxes, centres, strict=True)]
-        slopes = [of.slope(*each) for each in zip(symbols, around, images, strict=True)]
-        moves = corrections(defects, slopes)
-        points = [
-            _common(centre + move, box)
-            for centre, move, box in zip(centres, moves, boxes, strict=True)
-        ]
-        multiplier = prod(slopes[1:], start=slopes[0]) ** power
+            boxes = [_common(x.widen(reach), y) for x, y in zip(centres, domains, strict=True)]
+        slopes = _slopes(of, symbols, centres, boxes, defects)
+        moves = zip(centres, corrections(defects, slopes), boxes, strict=True)
+        points = [_common(centre + move, box) for centre, move, box in moves]
+        multiplier = math.prod(slopes[1:], start=slopes[0]) ** power
         fine = all(point.wid <= most for point, most in zip(points, scales, strict=True))
         if fine and multiplier.wid * 10**digits <= multiplier.mig:
             return points, multiplier
         widest = max(point.wid for point in points)
-        if 2 * widest >= max(box.wid for box in boxes):
+        if not fine and 2 * widest >= max(box.wid for box in boxes):
             raise Undecided(f"the points are known to {float(widest):.1e} only")
-        boxes, centres = points, [Interval(point.mid, precision=precision) for point in points]
+        if fine and 2 * multiplier.wid >= before:
+            raise Undecided(f"a multiplier is known to {float(multiplier.wid):.1e} only")
+        boxes, before = points, multiplier.wid
+        centres = [Interval(point.mid, precision=precision) for point in points]
+
+
+def _slopes(
+    of: ExpandingMap,
+    symbols: Sequence[int],
+    centres: Sequence[Interval],
+    boxes: Sequence[Interval],
+    defects: Sequence[Interval],
+) -> list[Interval]:
+    """Enclose f' on the segments from x_i, in centres, to p_i, in boxes: the S_i of (3)."""
+    ahead = [*range(1, len(boxes)), 0]
+    return [
+        of.slope(j, boxes[i].hull(centres[i]), boxes[k].hull(centres[k] + defects[i]))
+        for i, (j, k) in enumerate(zip(symbols, ahead, strict=True))
+    ]
 
 
 def corrections(defects: Sequence[Interval], slopes: Sequence[Interval]) -> list[Interval]:

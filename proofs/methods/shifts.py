@@ -237,7 +237,7 @@ def prove_shift(
     graph = file.add("graph", {"covers": relations})
     bound = {"length": "1", "vector": ["1"] * len(names), "growth": str(growth)}
     claims = [file.add("entropy", {"graph": graph, **bound})]
-    with suppress(Undecided, Unproved):
+    with suppress(Undecided, Unproved, Exhausted):
         claims.append(add_cone(file, graph))
     return claims
 

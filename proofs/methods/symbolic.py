@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from proofs.methods.derivation import Derivation
 from proofs.methods.lemmas import Lemmas, Number, Sides, exact
 from proofs.methods.newton import prove_all_orbits
 from proofs.methods.shifts import add_cone, add_covers, add_entropy, add_h_set
@@ -15,15 +14,11 @@ _MOST_BOXES = 10_000  # of a tree
 
 
 @dataclass
-class SymbolicLemmas(Derivation, Lemmas):
+class SymbolicLemmas(Lemmas):
     """A lemma file about maps of any kind, of steps that the checker's rules conclude.
 
     Raises Undecided, or the checker's Unproved, where they do not.
     """
-
-    def __post_init__(self) -> None:
-        self.functions = {name: self.json(name) for name in self.functions}
-        super().__post_init__()
 
     def h_set(self, centre: Sequence[Number], matrix: Sequence[Sequence[Number]]) -> str:
         """Add a step `h-set`; the first column is the unstable direction."""

@@ -9,16 +9,66 @@ of claim G7.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import Any
 
 from proofs.motion.system import System
-from proofs.trusted.equations import Clock, Launch, clock, gap, launch, launch_acceleration
+from proofs.trusted.equations import (
+    Clock,
+    Launch,
+    arrival,
+    clock,
+    closing,
+    gap,
+    launch,
+    launch_acceleration,
+    launch_with_restitution,
+    return_map_derivative,
+)
 
 Number = Any  # a float, or an array of such
 WEAKEST = 1e-6  # a rebound that counts as none where the table pushes; its height is 1e-12
 NO_PUSH = 1e-12  # a launch acceleration that is no more than rounding above 0
 CLOSE = 1e-13  # relative, of the time of an impact
 TURNS = 200
+HORIZON = 1000.0  # of flights
+
+
+@dataclass(frozen=True)
+class Landing:
+    """The impact after one at a phase: how long the flight takes, and phase + time."""
+
+    time: float
+    phase: float
+    start: Launch
+    now: Clock
+    epsilon: float
+
+    @property
+    def velocity(self) -> float:
+        """The velocity before the impact."""
+        return float(arrival(self.start, self.now)[1])
+
+    @property
+    def derivative(self) -> Any:
+        """The rows of DF."""
+        return return_map_derivative(self.start, self.now, self.epsilon)
+
+
+def landing(
+    system: System, epsilon: float, phase: float, gamma: float, horizon: float = HORIZON
+) -> Landing | None:
+    """Return about the next impact after one with velocity gamma.
+
+    None where the mass would come from inside the table, sticks, or flies on.
+    """
+    eta, nu = float(system.eta), float(system.nu)
+    start = launch_with_restitution(system.side, eta, nu, phase, epsilon=epsilon, gamma=gamma)
+    speed = system.side * closing(start, gamma)
+    flown = next_impact(system, phase, epsilon * speed, horizon) if speed >= 0 else None
+    if not flown or not flown[0]:
+        return None
+    return Landing(flown[0], phase + flown[0], start, clock(eta, flown[0]), epsilon)
 
 
 def next_impact(

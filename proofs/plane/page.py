@@ -177,13 +177,13 @@ class Stroke(NamedTuple):
 
 def page(store: Store, shown: Shown, certificates: Sequence[str]) -> str:
     """Return the page. certificates: files of cells beside it."""
-    (made, found, over), region = shown, store.region
+    (made, found, verdicts, over), region = shown, store.region
     shares = made["share_of_area"]
     whole = data(region, store.cells(*LEAVES))
     numbers = {name: percent(share) for name, share in shares.items()} | areas(shares)
     layers = [
         Layer(kind, colour, summary.words(kind), numbers[kind], made["kinds"][kind], paths)
-        for kind, colour in picture.coloured([*found]).items()
+        for kind, colour in picture.coloured(verdicts).items()
         for paths in [[*_paths(region, found[kind])]]
     ]
     return rendered(

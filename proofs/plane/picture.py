@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import io
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Mapping
 from fractions import Fraction
+from itertools import cycle
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -21,7 +22,12 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure as Drawing
 
-COLOURS = "#7FB8D8", "#7FCEB9", "#F2CF7F", "#E5BCD3", "#C9C9C9", "#ABDAF4", "#EAAE7F"
+SHADES = MappingProxyType(
+    {
+        Verdict.VERIFIED.value: ("#8FD3BC", "#3FA283", "#CDEBDD", "#1F7D60", "#B3D98C", "#6DB6B0"),
+        Verdict.REFUTED.value: ("#F3C0A0", "#DE8555", "#F9DFCF"),
+    }
+)  # greens and reds, as verdicts have on every page
 UNDECIDED = "#F1F1EF"
 STROKES = MappingProxyType(
     {
@@ -37,19 +43,25 @@ MEETINGS = "grazing meets another one"
 
 
 class Shown(NamedTuple):
-    """What is shown of an atlas: its summary, cells by kind of conclusion, curves over them."""
+    """What is shown of an atlas: its summary, cells by kind of conclusion, curves over them.
+
+    verdicts: of the kinds.
+    """
 
     made: dict[str, Any]
     found: dict[str, list[str]]
+    verdicts: dict[str, str]
     over: Overlay
 
 
 def shown(store: Store, made: dict[str, Any]) -> Shown:
     """Return what is shown of a store: cells, as few as are the same part of the plane."""
-    found = defaultdict[str, list[str]](list)
+    found, verdicts = defaultdict[str, list[str]](list), {}
     for cell in store.cells(Verdict.VERIFIED, Verdict.REFUTED):
         found[cell.kind].append(cell.key)
-    return Shown(made, {x: merged(keys) for x, keys in found.items()}, overlay(store.region))
+        verdicts[cell.kind] = cell.verdict
+    parts = {kind: merged(keys) for kind, keys in found.items()}
+    return Shown(made, parts, verdicts, overlay(store.region))
 
 
 def labels(region: Region) -> tuple[str, str]:
@@ -58,14 +70,15 @@ def labels(region: Region) -> tuple[str, str]:
     return one, two
 
 
-def coloured(found: Sequence[str]) -> dict[str, str]:
-    """Return the colour of each kind of conclusion that is found, in the order of a legend."""
-    return {kind: COLOURS[k % len(COLOURS)] for k, kind in enumerate(kinds(found))}
+def coloured(verdicts: Mapping[str, str]) -> dict[str, str]:
+    """Return a shade of its verdict's colour for each kind, in the order of a legend."""
+    shades = {verdict: cycle(each) for verdict, each in SHADES.items()}
+    return {kind: next(shades[verdicts[kind]]) for kind in kinds(verdicts)}
 
 
 def picture(region: Region, shown: Shown) -> Drawing:
     """Draw an atlas, the shares of the area in the legend."""
-    made, found, over = shown
+    made, found, verdicts, over = shown
     shares = made["share_of_area"]
     drawing, axes = style.sheet(5.4)
     undecided = f"undecided: {percent(shares[Verdict.UNDECIDED.value])}"
@@ -73,7 +86,7 @@ def picture(region: Region, shown: Shown) -> Drawing:
         undecided += f"; {NOT_YET}: {percent(shares[NOT_YET])}"
     axes.set_facecolor(UNDECIDED)
     axes.fill([], [], color=UNDECIDED, label=undecided)
-    for kind, colour in coloured([*found]).items():
+    for kind, colour in coloured(verdicts).items():
         boxes = map(region.sides, found[kind])
         label = f"{words(kind)}: {percent(shares[kind])}"
         style.proved_boxes(axes, joined(boxes), colour, label, lw=0)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
@@ -32,19 +32,21 @@ def sentences(text: str) -> list[str]:
 
 
 def block(sentence: str, printed: str) -> Block:
-    """Return a sentence, enumerations as a list: (1) ...; (2) ..., or many parts after a colon."""
+    """Return a sentence, enumerations as a list: see `enumerated`."""
+    head, parts, style = enumerated(sentence)
+    return Block(_markup(head, printed), tuple(_markup(x, printed) for x in parts), style)
+
+
+def enumerated(sentence: str) -> tuple[str, list[str], str]:
+    """Return what introduces an enumeration, its parts, and how they are set; no parts: no list."""
     head, *numbered = re.split(r"[;:] \(\d\) ", sentence)
     if len(numbered) > 1:
-        return Block(_markup(head + ":", printed), _items(numbered, printed), "parts")
-    head, colon, rest = sentence.rpartition(": n = 1: ")
-    parts = f"n = 1: {rest}".split("; ")
-    if colon and len(parts) > _MANY:
-        return Block(_markup(head + ":", printed), _items(parts, printed), "narrow")
-    return Block(_markup(sentence, printed))
-
-
-def _items(parts: Sequence[str], printed: str) -> tuple[Markup, ...]:
-    return tuple(_markup(part, printed) for part in parts)
+        return head + ":", numbered, "parts"
+    cases = re.fullmatch(r"(.*:) ((?:n = 1|epsilon in \[[^\]]*\]): .*?)", sentence)
+    parts = cases[2].split("; ") if cases else []
+    if cases and len(parts) > _MANY:
+        return cases[1], parts, "narrow"
+    return sentence, [], ""
 
 
 def _markup(text: str, printed: str) -> Markup:

@@ -9,20 +9,22 @@ conclusion in its own words, {f(x)} an enclosure of f at a point of a step.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from importlib import resources
+from itertools import pairwise
 from typing import NamedTuple
 
-from proofs.report.findings import Findings
+from proofs.report.findings import Findings, Statement
+from proofs.report.layout import enumerated, sentences
 from proofs.report.typeset import markdown
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.laps import SlopeRange
 from proofs.trusted.numbers import between
-from proofs.trusted.verdicts import told
 
 _LINE = re.compile(r"@(\S+) (.+)")
 _RULES = "../proofs/trusted/CERTIFICATE.md"
-_MARKS = re.compile(r"\[[a-z ]+\]\([^)]+\)|\*\*[A-Za-z ]+(?:\d+\.)?\*\*|\*Proof\.\*|^#+ ")
+_MARKS = re.compile(r"\[[a-z ]+\]\([^)]+\)|\*\*[A-Za-z ]+(?:\d+)?\*\*|\*Proof\.\*|^#+ ")
 
 
 class Sentence(NamedTuple):
@@ -47,17 +49,46 @@ def template() -> list[Sentence]:
 def theorem(findings: Findings) -> str:
     """Return the page, with the sentences whose conclusions the ledger lists."""
     known, paragraphs = sources(findings), [list[str]()]
+    labels = {each.label: each for each in findings.statements.values()}
+    above: dict[str, str] = {}  # the theorems of this page, by what is told in them
+    number = ""
     for tag, text in template():
         if tag and tag not in ("def", "classical") and tag not in known:
             continue
-        written = f"{rendered(known.get(tag), text)} {_source(tag)}".strip()
         if not tag or text == "{text}" or text.startswith(("**Theorem", "*Proof")):
             paragraphs.append([])  # that begins here
         if text == "{text}":
-            paragraphs += [[f"> {written}"], []]
-        elif written:
+            paragraphs += [[_quoted(findings, labels[tag], above)], []]
+            above[tag] = number
+        elif written := f"{rendered(known.get(tag), text)} {_source(tag)}".strip():
             paragraphs[-1].append(written)
+        if heading := re.match(r"\*\*(Theorem \d+)", text):
+            number = heading[1]
     return "\n\n".join(" ".join(each) for each in paragraphs if each) + "\n"
+
+
+def _quoted(findings: Findings, statement: Statement, above: Mapping[str, str]) -> str:
+    """Return a theorem as a quotation; of it, what a theorem above says is named by that."""
+    lines = [""]
+    for part in findings.parts(statement):
+        if isinstance(part, Statement) and part.label in above:
+            lines[-1] += f"What {above[part.label]} says of these sets holds; moreover: "
+            continue
+        for sentence in sentences(part.text if isinstance(part, Statement) else part):
+            head, parts, _ = enumerated(sentence)
+            lines[-1] += markdown(head) + " "
+            if parts:
+                lines += [*(f"- {markdown(each)}" for each in parts), "", ""]
+    lines[-1] += _source(statement.label)
+    return "\n".join(f"> {line.strip()}".strip() for line in _spaced(lines))
+
+
+def _spaced(lines: Sequence[str]) -> Iterator[str]:
+    """Yield lines, an empty one before a list."""
+    for before, line in pairwise(["", *lines]):
+        if line.startswith("- ") and not before.startswith("- "):
+            yield ""
+        yield line
 
 
 def sources(findings: Findings) -> dict[str, Conclusion | None]:
@@ -76,14 +107,12 @@ def rendered(conclusion: Conclusion | None, text: str) -> str:
     """Return a sentence with what it takes from its conclusion."""
 
     def put(match: re.Match[str]) -> str:
-        if match[0] == "{text}" and conclusion is not None:
-            return told([conclusion])
         if isinstance(conclusion, SlopeRange) and match[1] is not None:
             place = conclusion.points.index(Fraction(match[1]))
             return between(conclusion.images[place])
         raise ValueError(f"nothing to put for {match[0]}")
 
-    return _linked(re.sub(r"\{(?:text|f\(([\d.]+)\))\}", put, text))
+    return _linked(re.sub(r"\{f\(([\d.]+)\)\}", put, text))
 
 
 def _source(tag: str) -> str:

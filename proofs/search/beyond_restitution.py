@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
@@ -18,18 +18,21 @@ from proofs.search.beyond import too_fast
 from proofs.search.budget import EFFORT, Budget
 from proofs.search.evidence import FAILED, Evidence, Proof, Tell, search_each
 from proofs.search.s33_cycles import around_image, stable_cycles
-from proofs.search.s33_own import rectangles
+from proofs.search.s33_moving import grown
+from proofs.search.s33_rectangles import Sets
 from proofs.search.s33_steps import ReboundProver
 from proofs.search.s34_border import witness
 from proofs.search.s34_circle import prove_arc, prove_longest
-from proofs.search.shifts import pieces, symbols
+from proofs.search.shifts import Symbol, cells, families, pieces, rounded_out, symbols
 from proofs.search.steps import Prover
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s34_circle.persistence import landed
 from proofs.trusted.parameters import Parameters, Place
 
 _MOST_IMPACTS = 30
+_SPARES = (0.05, 0.02, 0.01, 0.005, 0.002, 0.001)  # by how much edges overshoot, from the most
 _AROUND = Fraction(1, 10**6)  # of states around the first impact
 
 
@@ -49,7 +52,6 @@ def prove(
     if not too_fast(of, found, _SEARCHES) and of.epsilon is not None:
         within = partial(budget.attempt, prover.attempt)
         search_each(found, claims, _SEARCHES, tell, prover, budget, within=within)
-    found.steps = prover.steps
     return found
 
 
@@ -61,7 +63,7 @@ def _chaos(prover: ReboundProver, budget: Budget) -> Proof:
     seen = symbols(pieces(system, budget.grid, budget.farthest, budget.check))
     failure = "no two rectangles are seen that F maps across both"
     for (sets, velocities), _ in zip(
-        rectangles(system, epsilon, seen), range(budget.tries), strict=False
+        _rectangles(system, epsilon, seen), range(budget.tries), strict=False
     ):
         budget.check()
         prover.of = replace(of, velocities=velocities)
@@ -74,6 +76,23 @@ def _chaos(prover: ReboundProver, budget: Budget) -> Proof:
         finally:
             prover.of = of
     raise Undecided(failure)
+
+
+def _rectangles(
+    system: System, epsilon: Fraction, seen: Sequence[Symbol]
+) -> Iterator[tuple[Sets, Range]]:
+    """Yield two sets of phases, and velocities, on which F seems to be a full shift."""
+    for family in families(seen, 2):
+        for spare in _SPARES:
+            sets = cells(family, spare)
+            moved = sets and grown(system, float(epsilon), (sets[0], sets[1]), spare)
+            if moved:
+                low, high = moved.velocities[0]
+                unit = 10.0 ** -math.ceil(2 - math.log10(high - low))
+                ends = math.floor(low / unit), math.ceil(high / unit)
+                left, right = rounded_out(moved.phases, spare)
+                first, last = (Fraction(end) * Fraction(str(unit)) for end in ends)
+                yield (left, right), (first, last)
 
 
 def _stable(prover: ReboundProver, budget: Budget) -> Proof:
@@ -93,7 +112,6 @@ def _chattering(prover: ReboundProver, epsilon: Fraction) -> tuple[str, Conclusi
     system = prover.plain.system
     at = Place.restituting(system.eta, system.nu, epsilon)
     separation, arc = prove_arc(prover.plain)
-    prover.known[separation] = arc
     pushing, first = Pushing(arc.at, arc.phase[0]), around(arc, _AROUND)
     box, impacts = list(first), list[str]()
     while len(impacts) < _MOST_IMPACTS:

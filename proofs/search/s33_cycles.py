@@ -9,17 +9,11 @@ from contextlib import suppress
 from fractions import Fraction
 
 from intervals import Undecided
-from proofs.motion.simulate import TURNS, next_impact
+from proofs.motion.simulate import TURNS, landing
 from proofs.motion.system import System
 from proofs.search.evidence import FAILED
 from proofs.search.s33_steps import ReboundProver, function_of
 from proofs.trusted.certificate import texts
-from proofs.trusted.equations import (
-    arrival,
-    clock,
-    launch_with_restitution,
-    return_map_derivative,
-)
 from proofs.trusted.kernel.differential import Differential
 from proofs.trusted.kernel.enclose import Matrix, enclosed, point_box
 from proofs.trusted.kernel.rates import size
@@ -113,16 +107,11 @@ def seen_from(at: Place, state: State, period: int) -> tuple[State, float]:
     for _ in range(_NEWTON):
         here, product = (phase, gamma), np.eye(2)
         for _ in range(period):
-            start = launch_with_restitution(
-                system.side, float(eta), float(nu), here[0], epsilon=float(epsilon), gamma=here[1]
-            )
-            kick = system.side * (start.kick or 0.0)
-            found = next_impact(system, here[0], kick, math.tau * TURNS)
-            if found is None:
+            after = landing(system, float(epsilon), *here, math.tau * TURNS)
+            if after is None:
                 raise Undecided("the orbit is lost")
-            now = clock(start.eta, found[0])
-            product = np.array(return_map_derivative(start, now, float(epsilon))) @ product
-            here = (here[0] + found[0]) % math.tau, arrival(start, now)[1]
+            product = np.array(after.derivative) @ product
+            here = after.phase % math.tau, after.velocity
         away = np.subtract(here, (phase, gamma))
         step = np.linalg.solve(np.eye(2) - product, away)
         phase, gamma = phase + float(step[0]), gamma + float(step[1])

@@ -5,20 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from itertools import pairwise, product
-from typing import NamedTuple
 
-from proofs.motion.simulate import next_impact
+from proofs.motion.simulate import Landing, landing
 from proofs.motion.system import System
-from proofs.trusted.equations import (
-    arrival,
-    clock,
-    closing,
-    launch_with_restitution,
-    return_map_derivative,
-)
 
-_HORIZON = 1000.0
 _SWEEPS = 24
+_STEPS = 4  # of epsilon, from 0
 _SAMPLES = 5  # of a rectangle, along its phases
 _STEP = 0.02  # the most that an edge moves at once
 _SAME_FLIGHT = 2.0  # flights of one branch differ by less, those of two by more
@@ -28,41 +20,20 @@ _SLACK, _LEAST_SLACK = 0.2, 0.005  # beside images: of their height, and at leas
 Pair = tuple[float, float]
 
 
-class Landing(NamedTuple):
-    """F and DF at a state: the phase on the line, the velocity, rows of DF; the time of flight."""
-
-    phase: float
-    velocity: float
-    derivative: tuple[Pair, Pair]
-    time: float
-
-
-def landing(system: System, epsilon: float, state: Pair, near: float) -> Landing | None:
-    """Return about F and DF, the phase near the one given; None if it sticks or flies on."""
-    eta, nu, (phase, gamma) = float(system.eta), float(system.nu), state
-    start = launch_with_restitution(system.side, eta, nu, phase, epsilon=epsilon, gamma=gamma)
-    speed = system.side * closing(start, gamma)
-    found = next_impact(system, phase, epsilon * speed, _HORIZON) if speed >= 0 else None
-    if not found or found[0] == 0:
-        return None
-    now = clock(eta, found[0])
-    turned = phase + found[0] + math.tau * round((near - phase - found[0]) / math.tau)
-    derivative = return_map_derivative(start, now, epsilon)
-    return Landing(turned, arrival(start, now)[1], derivative, found[0])
-
-
 @dataclass(frozen=True)
 class Moving:
     """Phases and velocities of rectangles for a range of epsilon, V1 and V2 by turns.
 
     Two, or four: those for the states after V1, then those after V2. flights: how long flights
-    from each about are. axis: dgamma / dphi of images, as nearly as one number says it.
+    from each about are; falls: whether later phases are sent to earlier ones.
+    axis: dgamma / dphi of images, as nearly as one number says it.
     """
 
     epsilon: Pair
     phases: tuple[Pair, ...]
     velocities: tuple[Pair, ...]
     flights: tuple[float, ...]
+    falls: tuple[bool, ...]
     axis: float = 0.0
 
     def following(self, index: int) -> tuple[int, int]:
@@ -80,6 +51,7 @@ class Moving:
             phases=self.phases * 2,
             velocities=self.velocities * 2,
             flights=self.flights * 2,
+            falls=self.falls * 2,
         )
 
     def cuts(self, index: int) -> list[float]:
@@ -91,20 +63,30 @@ class Moving:
 def first_guess(system: System, sets: tuple[Pair, Pair]) -> Moving | None:
     """Return two sets of phases with the velocities and flights that plastic impacts have there."""
     forward = system.side * abs(float(system.nu)) / float(system.eta)  # meets the table anywhere
-    found = [landing(system, 0.0, (sum(each) / 2, forward), sets[0][0]) for each in sets]
-    if None in found:
-        return None
+    found = [landing(system, 0.0, sum(each) / 2, forward) for each in sets]
     known = [each for each in found if each is not None]
+    if len(known) < len(found):
+        return None
     gammas = [each.velocity for each in known]
     common = min(gammas) - 0.03, max(gammas) + 0.03
-    return Moving((0.0, 0.0), sets, (common, common), tuple(each.time for each in known))
+    times, falls = zip(*((x.time, x.derivative[0][0] < 0) for x in known), strict=True)
+    return Moving((0.0, 0.0), sets, (common, common), times, falls)
+
+
+def grown(system: System, epsilon: float, sets: tuple[Pair, Pair], margin: float) -> Moving | None:
+    """Follow two sets of a plastic horseshoe from epsilon = 0 on; None if they are lost."""
+    now = first_guess(system, sets)
+    for step in range(1, _STEPS + 1):
+        at = epsilon * step / _STEPS
+        now = now and settled(system, replace(now, epsilon=(at, at)), margin)
+    return now
 
 
 def settled(system: System, guess: Moving, margin: float) -> Moving | None:
     """Move edges until they overshoot what follows by the margin, velocities until they hold the
     images; None where that fails: a flight grazes.
     """
-    now = guess
+    now, close = guess, min(_CLOSE, margin / 20)
     for sweep in range(_SWEEPS):
         phases = [_edges(system, now, k, margin) for k in range(len(now.phases))]
         moved = [
@@ -117,14 +99,14 @@ def settled(system: System, guess: Moving, margin: float) -> Moving | None:
         now = replace(now, phases=tuple(x for x in phases if x is not None))
         if any(low >= high for low, high in now.phases):
             return None
-        if sweep % 4 == 3 or max(moved) < _CLOSE:
+        if sweep % 4 == 3 or max(moved) < close:
             found = _heights(system, now)
             if found is None:
                 return None
             pairs = zip(now.velocities, found.velocities, strict=True)
             grown = max(max(abs(a - b) for a, b in zip(*pair, strict=True)) for pair in pairs)
             now = found
-            if max(grown, *moved) < _CLOSE:
+            if max(grown, *moved) < close:
                 return now
     return None
 
@@ -134,12 +116,12 @@ def _edges(system: System, now: Moving, index: int, margin: float) -> Pair | Non
     left, right = (now.phases[k] for k in now.following(index))
     targets = (left[0] - margin, max), (right[1] + margin, min)
     edges = []
-    for edge, (target, extreme) in zip(now.phases[index], targets, strict=True):
+    goals = reversed(targets) if now.falls[index] else targets
+    for edge, (target, extreme) in zip(now.phases[index], goals, strict=True):
         moved = edge
         for _ in range(4):  # back from where flights graze
             images = [
-                landing(system, epsilon, (moved, gamma), target)
-                for epsilon, gamma in now.corners(index)
+                landing(system, epsilon, moved, gamma) for epsilon, gamma in now.corners(index)
             ]
             known = [x for x in images if x and abs(x.time - now.flights[index]) < _SAME_FLIGHT]
             if len(known) == len(images):
@@ -147,10 +129,15 @@ def _edges(system: System, now: Moving, index: int, margin: float) -> Pair | Non
             moved = moved * 0.75 + sum(now.phases[index]) / 2 * 0.25
         else:
             return None
-        image = extreme(known, key=lambda each: each.phase)
-        step = (target - image.phase) / image.derivative[0][0]
+        image = extreme(known, key=lambda each: _near(each, target))
+        step = (target - _near(image, target)) / image.derivative[0][0]
         edges.append(moved + min(_STEP, max(-_STEP, step)))
     return edges[0], edges[1]
+
+
+def _near(image: Landing, phase: float) -> float:
+    """Return the phase of an image on the line, next to another."""
+    return image.phase + math.tau * round((phase - image.phase) / math.tau)
 
 
 def _heights(system: System, now: Moving) -> Moving | None:
@@ -160,17 +147,15 @@ def _heights(system: System, now: Moving) -> Moving | None:
     for index in range(len(now.phases)):
         rows = []
         for phi in now.cuts(index):
-            images = [
-                landing(system, epsilon, (phi, gamma), now.phases[0][0])
-                for epsilon, gamma in now.corners(index)
-            ]
+            images = [landing(system, epsilon, phi, gamma) for epsilon, gamma in now.corners(index)]
             rows.append([x for x in images if x])
             if len(rows[-1]) < len(images):
                 return None
         ratios += [x.derivative[1][0] / x.derivative[0][0] for row in rows for x in row]
         for one, two in pairwise(rows):
             part = [*one, *two]
-            reach = min(x.phase for x in part), max(x.phase for x in part)
+            phases = [_near(x, now.phases[0][0]) for x in part]
+            reach = min(phases), max(phases)
             for k in now.following(index):
                 low, high = now.phases[k]
                 if reach[0] <= high and reach[1] >= low:
@@ -181,5 +166,16 @@ def _heights(system: System, now: Moving) -> Moving | None:
         speeds = [speeds[0] + speeds[1]] * 2
     bounds = [(min(each), max(each)) for each in speeds]
     slack = [_SLACK * (high - low) + _LEAST_SLACK for low, high in bounds]
-    grown = tuple((low - s, high + s) for (low, high), s in zip(bounds, slack, strict=True))
-    return replace(now, velocities=grown, axis=(min(ratios) + max(ratios)) / 2)
+    grown = [(low - s, high + s) for (low, high), s in zip(bounds, slack, strict=True)]
+    edge = min if system.side < 0 else max
+    at_rest = edge(
+        -float(system.nu) * math.cos(x) / float(system.eta) for y in now.phases for x in y
+    )
+    for k, (low, high) in enumerate(bounds):  # beyond, the mass would come from inside the table
+        if system.side < 0:
+            grown[k] = grown[k][0], min(grown[k][1], (high + at_rest) / 2)
+        else:
+            grown[k] = max(grown[k][0], (low + at_rest) / 2), grown[k][1]
+        if not grown[k][0] < low <= high < grown[k][1]:
+            return None
+    return replace(now, velocities=tuple(grown), axis=(min(ratios) + max(ratios)) / 2)

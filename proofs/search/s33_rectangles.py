@@ -8,10 +8,9 @@ from fractions import Fraction
 from functools import cache, lru_cache
 from itertools import product
 
-from proofs.motion.simulate import next_impact
+from proofs.motion.simulate import landing
 from proofs.motion.system import System
 from proofs.search.repair import moved_ends, places
-from proofs.trusted.equations import arrival, clock, closing, launch_with_restitution
 from proofs.trusted.numbers import Range
 from proofs.trusted.parameters import Parameters, Place
 
@@ -23,18 +22,11 @@ _HALVINGS = 12  # of a candidate for an end
 
 @lru_cache(maxsize=4096)
 def state_after(
-    eta: float, nu: float, epsilon: float, state: tuple[float, float], horizon: float = 1000.0
+    eta: float, nu: float, epsilon: float, state: tuple[float, float]
 ) -> tuple[float, float] | None:
     """Return about F(phi, gamma), its phase in [0, 2 pi); None if it sticks or flies on."""
-    (phase, gamma), system = state, System(Fraction(eta), Fraction(nu))
-    start = launch_with_restitution(system.side, eta, nu, phase, epsilon=epsilon, gamma=gamma)
-    closing_speed = system.side * closing(start, gamma)
-    if closing_speed < 0:
-        return None
-    time, _ = next_impact(system, phase, epsilon * closing_speed, horizon) or (0.0, 0.0)
-    if time == 0:
-        return None
-    return (phase + time) % math.tau, arrival(start, clock(eta, time))[1]
+    after = landing(System(Fraction(eta), Fraction(nu)), epsilon, *state)
+    return None if after is None else (after.phase % math.tau, after.velocity)
 
 
 def image_phases(at: Place, velocities: Range) -> Images:

@@ -14,9 +14,8 @@ from itertools import pairwise, product
 from typing import Any, TypeVar
 
 from intervals.errors import Undecided
-from proofs.motion.simulate import next_impact
+from proofs.motion.simulate import landing
 from proofs.motion.system import System
-from proofs.motion.witness import HORIZON
 from proofs.search.evidence import FAILED, concluded
 from proofs.search.s33_rectangles import Sets, image_phases, state_after
 from proofs.search.steps import Prover
@@ -45,11 +44,10 @@ _ROOM = 40  # bits beyond those of a result
 
 @dataclass
 class ReboundProver:
-    """Collects steps about impacts with restitution, and the conclusions they reach."""
+    """Adds steps about impacts with restitution to those of the plastic map."""
 
     of: Parameters
     plain: Prover
-    known: dict[str, Conclusion] = field(default_factory=dict)
     _names: dict[object, str] = field(default_factory=dict)  # some of steps that were taken back
 
     @property
@@ -58,15 +56,16 @@ class ReboundProver:
         return self.plain.steps
 
     @property
+    def known(self) -> dict[str, Conclusion]:
+        """What they conclude."""
+        return self.plain.known
+
+    @property
     def velocities(self) -> Range:
         """The velocities of the statement's rectangles."""
         if self.of.velocities is None:
             raise Undecided("no range of velocities is given")
         return self.of.velocities
-
-    def all(self, kind: type[C], at: Place) -> list[tuple[str, C]]:
-        """Return the conclusions of a kind about these oscillators, with their names."""
-        return [(k, x) for k, x in self.known.items() if type(x) is kind and x.place == at]
 
     def get(self, name: str, kind: type[C]) -> C:
         """Return a conclusion by its name."""
@@ -78,11 +77,10 @@ class ReboundProver:
     @contextmanager
     def attempt(self) -> Iterator[None]:
         """Do something; nothing is recorded of it if it fails, and failures are Unproved."""
-        steps, known = dict(self.steps), dict(self.known)
         try:
-            yield
+            with self.plain.undone():
+                yield
         except FAILED as failure:
-            self.plain.steps, self.known = steps, known
             raise Unproved(str(failure)) from None
 
     # -- steps ---------------------------------------------------------------------------------
@@ -266,10 +264,8 @@ def function_of(at: Place) -> dict[str, list[str]]:
 def turns_of(at: Place, box: Box) -> str:
     """Return about how many turns the next phases have passed, seen from the middle of a box."""
     eta, nu, epsilon, phase, gamma = (float(low + high) / 2 for low, high in (*at.sides, *box))
-    system = System(Fraction(eta), Fraction(nu))
-    speed = -system.side * (-eta * gamma - nu * math.cos(phase))
-    time, _ = next_impact(system, phase, epsilon * speed, float(HORIZON)) or (0.0, 0.0)
-    return str(math.floor((phase + time) / math.tau))
+    after = landing(System(Fraction(eta), Fraction(nu)), epsilon, phase, gamma)
+    return str(math.floor((after.phase if after else phase) / math.tau))
 
 
 def _is_smooth(at: Place, box: Box) -> bool:

@@ -106,7 +106,7 @@ def within(inner: Range, outer: Range) -> bool:
     return outer[0] <= inner[0] and inner[1] <= outer[1]
 
 
-def increasing(values: Sequence[Fraction]) -> bool:
+def increasing(values: Sequence[Fraction | int]) -> bool:
     """Whether numbers increase strictly."""
     return all(low < high for low, high in pairwise(values))
 

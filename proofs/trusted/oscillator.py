@@ -83,8 +83,8 @@ class Oscillator(Flight):
 
     @property
     def definition(self) -> str:
-        """Its name: what it is, the text says that begins with the oscillators."""
-        return "F"
+        """What it is; no function of a file, though one may have its name."""
+        return f"`{self.name}`, from an impact to the next one at {self.at}"
 
 
 @lru_cache(maxsize=2)

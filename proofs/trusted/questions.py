@@ -91,12 +91,12 @@ OF_MAPS = "orbits:N, stable:N (N from 1 to 60), horseshoe"
 def map_question(name: str, function: str) -> Question:
     """Return what is asked of a map under a name; ValueError where that is nothing.
 
-    A conclusion answers if it is about this function of a file. Nothing is refuted.
+    Conclusions about this function of a file answer, not the paper's map. Nothing is refuted.
     """
     kind, _, number = name.partition(":")
 
     def is_orbit(found: Conclusion) -> bool:
-        if not isinstance(found, PeriodicOrbit) or found.function.name != function:
+        if not isinstance(found, PeriodicOrbit) or found.place or found.function.name != function:
             return False
         is_asked = kind == "orbits" or found.stability == ATTRACTING
         return is_asked and found.period == int(number)
@@ -104,7 +104,8 @@ def map_question(name: str, function: str) -> Question:
     def is_horseshoe(found: Conclusion) -> bool:
         if not isinstance(found, Entropy) or found.growth < 2:
             return False
-        return all(cover.local.map.name == function for cover in found.graph.covers)
+        maps = [cover.local.map for cover in found.graph.covers]
+        return all(map_.name == function and not hasattr(map_, "at") for map_ in maps)
 
     if name == "horseshoe":
         holds = "a compact invariant set of the map has positive topological entropy"

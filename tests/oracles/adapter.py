@@ -54,6 +54,8 @@ def plain(value, share=0):
         return tuple(plain(part, share) for part in value)
     if is_dataclass(value):
         name = type(value).__name__
+        if name == "Flow":
+            return SimpleNamespace(**flow(value), circles=plain(value.circles), kind=name)
         names = [f.name for f in fields(value) if f.name not in _BLIND]
         record = {each: plain(getattr(value, each), share) for each in names if each != "at"}
         record |= {each: plain(getattr(value, each), share) for each in _MORE.get(name, ())}
@@ -63,6 +65,17 @@ def plain(value, share=0):
         record |= place(about, share)
         return SimpleNamespace(**record, kind=name)
     raise TypeError(f"nothing is known about {type(value).__name__}")
+
+
+def flow(value):
+    """A flow as a file would write it, and what is said of its parameters."""
+    names, n = value.outcome.variables, value.equation.n
+    texts = (value.section.velocity, value.start, value.outcome)
+    field, start, values = ([str(tree) for tree in each.trees] for each in texts)
+    end = {"gaps": [str(gap) for gap in value.end.gaps], "count": str(value.end.number)}
+    state, time = names[value.first :][:n], names[value.first + n]
+    own = {"variables": value.variables, "state": state, "time": time, "given": value.outcome.given}
+    return {**own, "field": field, "start": start, "values": values, "end": end}
 
 
 def place(about, share=0):

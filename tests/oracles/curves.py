@@ -10,7 +10,7 @@ import flint
 import numpy as np
 
 from tests.oracles.formulas import BITS, exact
-from tests.oracles.kernel import newton, partial, values
+from tests.oracles.kernel import matrix, newton, values
 from tests.oracles.motion import TURN, Impact, flight, inside
 
 _SLACK = 1e-9
@@ -41,9 +41,8 @@ def _zeros(view, x, sides, rng):
         point = [exact(x)] * len(sides)
         for k, value in zip(others, y, strict=True):
             point[k] = exact(float(value))
-        columns = [partial(view.function, point, k) for k in others]
         found = np.array([float(v) for v in values(view.function, point)])
-        return found, np.array([[float(v) for v in column] for column in columns]).T
+        return found, matrix(view.function, point)[:, others]
 
     found = []
     with flint.ctx.workprec(BITS):

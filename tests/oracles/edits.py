@@ -2,12 +2,13 @@
 
 Numbers, ranges, lists and objects are moved, made points, emptied, exchanged, put in another order
 or there twice; formulas are written in equal and in other words; steps and functions are taken from
-elsewhere.
+elsewhere. The same edit may be made smaller: whatever is a number moves a part of the way.
 """
 
 import copy
 import random
 import re
+from contextlib import suppress
 from fractions import Fraction
 from typing import Any
 
@@ -15,34 +16,8 @@ from proofs.trusted.certificate import Reader
 
 NUMBERS = ("0", "1", "2", "1/2", "-1", "1/5", "7/5", "6/5", "3/2", "4/5", "31/5", "3", "22/7")
 PARAMETERS = {  # some of one's own
-    "eta": [
-        "1/4",
-        "1/6",
-        "5/22",
-        "2121/10000",
-        "2123/10000",
-        "1/2",
-        "1",
-        "13/10",
-        "7/3",
-        "1/100",
-        "20",
-        "9/2",
-    ],
-    "nu": [
-        "-1/5",
-        "1/5",
-        "-19/20",
-        "-9/20",
-        "-3/10",
-        "9/10",
-        "-2001/10000",
-        "-1",
-        "1",
-        "-3/2",
-        "5/2",
-        "1/1000",
-    ],
+    "eta": ("1/4", "1/6", "5/22", "2121/10000", "2123/10000", "1/2", "1", "7/3", "1/100", "20"),
+    "nu": ("-1/5", "1/5", "-19/20", "-3/10", "9/10", "-2001/10000", "1", "-3/2", "5/2", "1/1000"),
     "left": (["111/100", "23/20"], ["11/10", "113/100"], ["1/10", "1"], ["112/100", "23/20"]),
     "right": (["127/100", "33/25"], ["129/100", "33/25"], ["5", "31/5"], ["127/100", "131/100"]),
     "interval": (["111/100", "33/25"], ["1", "3/2"], ["1/10", "31/5"], ["0", "157/25"]),
@@ -56,6 +31,22 @@ PARAMETERS = {  # some of one's own
 }
 
 
+class Chance(random.Random):
+    """Random choices, and how large edits are: 1, or less for the same edit on a smaller scale."""
+
+    def __init__(self, seed: str, size: Fraction = Fraction(1)):
+        super().__init__(seed)
+        self.size = size
+
+
+def part_of_the_way(old: Any, new: Any, size: Fraction) -> Any:
+    """From a number or a pair towards another one; the other one where that has no meaning."""
+    if isinstance(old, list) and isinstance(new, list) and len(old) == len(new):
+        return [part_of_the_way(a, b, size) for a, b in zip(old, new, strict=True)]
+    one, two = number(old), number(new)
+    return new if None in (one, two) else str(one + (two - one) * size)
+
+
 def needed(steps: dict[str, Any], names: list[str]) -> dict[str, Any]:
     """The steps that some need, in order."""
     reached = set(names)
@@ -65,7 +56,7 @@ def needed(steps: dict[str, Any], names: list[str]) -> dict[str, Any]:
     return {name: step for name, step in steps.items() if name in reached}
 
 
-def place(value: Any, chance: random.Random) -> tuple:
+def place(value: Any, chance: Chance) -> tuple:
     """A path to a list, an object or a string inside, as likely near the root as deep."""
     inner = list(value) if isinstance(value, dict) else range(len(value))
     stay = {list: 0.3, dict: 0.05}.get(type(value), 1)
@@ -85,7 +76,7 @@ def number(text: Any) -> Fraction | None:
         return None
 
 
-def edit_object(value: dict, chance: random.Random) -> dict:
+def edit_object(value: dict, chance: Chance) -> dict:
     """The same members in another order, one less, one under another name, two exchanged."""
     names, kind = list(value), chance.randrange(4)
     one, two = chance.choice(names), chance.choice(names)
@@ -99,7 +90,7 @@ def edit_object(value: dict, chance: random.Random) -> dict:
     return {**value, one: value[two], two: value[one]}
 
 
-def edit_formula(text: str, chance: random.Random) -> str:
+def edit_formula(text: str, chance: Chance) -> str:
     """The same function in other words, as often another one."""
     name, other_name = (
         chance.choice(re.findall(r"\b[a-z]\w*\b(?!\()", text) or ["x"]) for _ in "ab"
@@ -126,20 +117,22 @@ def edit_formula(text: str, chance: random.Random) -> str:
     return chance.choice(same if chance.random() < 0.5 else other)
 
 
-def edit_list(value: list, chance: random.Random) -> list:
-    """The same list in another order, an entry more, less, or twice; a pair wider or narrower.
+def edit_list(value: list, chance: Chance) -> list:
+    """The same list in another order, an entry more, less, or twice, or one in between; a pair
+    wider or narrower or elsewhere.
 
     A pair may become a point; all of a list may be gone.
     """
     if chance.random() < 0.03:
         return []
-    value, kind = list(value), chance.randrange(5)
+    value, kind = list(value), chance.randrange(6)
     pair = [number(each) for each in value]
     if len(value) == 2 and None not in pair and chance.random() < 0.75:
         if chance.random() < 0.15:
             return [chance.choice(value)] * 2
         step = (pair[1] - pair[0] or 1) / chance.choice((2, 10, 1000, 10**6, -3, -10, -1000))
-        sides = chance.choice(((1, 1), (1, 0), (0, 1)))
+        step *= chance.size
+        sides = chance.choice(((1, 1), (1, 0), (0, 1), (1, -1)))
         return [str(pair[0] - step * sides[0]), str(pair[1] + step * sides[1])]
     if len(value) < 2:
         return value * 2
@@ -152,12 +145,14 @@ def edit_list(value: list, chance: random.Random) -> list:
         del value[i]
     elif kind == 3:
         value.insert(i, value[j])
+    elif kind == 4 and None not in (number(value[i]), number(value[i - 1])):
+        value.insert(i, part_of_the_way(value[i - 1], value[i], Fraction(1, 2)))
     else:
         value[i] = value[j]
     return value
 
 
-def edit_text(text: str, chance: random.Random) -> str:
+def edit_text(text: str, chance: Chance) -> str:
     """Another number: near by a part, by a turn of the table, or of another kind; a formula."""
     value = number(text)
     if value is None:
@@ -167,34 +162,41 @@ def edit_text(text: str, chance: random.Random) -> str:
         if not numbers:
             return text
         one = chance.choice(numbers)
-        return text[: one.start()] + str(chance.randint(1, 5)) + text[one.end() :]
+        other = str(chance.randint(1, 5))
+        if chance.random() < 0.7 and not text[: one.start()].endswith("**"):
+            other = f"({part_of_the_way(one[0], other, chance.size / 10)})"
+        return text[: one.start()] + other + text[one.end() :]
     small = Fraction(chance.choice((-1, 1)), 10 ** chance.choice((2, 4, 6, 9, 12, 20, 30)))
+    small *= chance.size
     turn = Fraction("6.283185307179586") * chance.choice((-1, 1))
     choices = (value + small, value * (1 + small), value + turn, -value, 1 / (value or 1))
     weights = (6, 6, 1, 1, 1)
-    return (
-        str(chance.choices(choices, weights)[0])
-        if chance.random() < 0.9
-        else chance.choice(NUMBERS)
-    )
+    if chance.random() < 0.9:
+        return str(chance.choices(choices, weights)[0])
+    return part_of_the_way(text, chance.choice(NUMBERS), chance.size)
 
 
-def edit_parameters(given: dict[str, Any], chance: random.Random) -> dict[str, Any]:
-    """Another number, one of `PARAMETERS` or near by; of a box another side."""
+def edit_parameters(given: dict[str, Any], chance: Chance) -> dict[str, Any]:
+    """Another number, on the way to one of `PARAMETERS` or near by; of a box another side."""
     made = copy.deepcopy(given)
     if "left" not in made:
         name = chance.choice(list(made))
-        made[name] = edit_list(made[name], chance) or ["1", "2"]
+        if chance.random() < 0.5:
+            other = chance.choice([each for each in PARAMETERS[name] if each])
+            made[name] = part_of_the_way(made[name], [other, other], chance.size)
+        else:
+            made[name] = edit_list(made[name], chance) or ["1", "2"]
         return made
     name = chance.choices(list(PARAMETERS), (1, 1, 2, 2, 3, 3, 3, 2, 2, 2, 2, 1))[0]
     if chance.random() < 0.5 or made.get(name) is None:
-        made[name] = copy.copy(chance.choice(PARAMETERS[name]))
+        other = copy.copy(chance.choice(PARAMETERS[name]))
+        made[name] = part_of_the_way(made.get(name), other, chance.size)
     else:
         put(made, (name, *place(made[name], chance)), chance)
     return made
 
 
-def edit_function(functions: dict[str, Any], chance: random.Random) -> dict[str, Any]:
+def edit_function(functions: dict[str, Any], chance: Chance) -> dict[str, Any]:
     """Edit a map of a file: its formulas, names, parameters, periods, gaps, or its parts."""
     name = chance.choice(list(functions))
     changed = copy.deepcopy(functions[name])
@@ -206,16 +208,17 @@ def edit_function(functions: dict[str, Any], chance: random.Random) -> dict[str,
     return functions | {name: changed}
 
 
-def stretch(witness: dict[str, Any], chance: random.Random) -> None:
+def stretch(witness: dict[str, Any], chance: Chance) -> None:
     """Make an h-set longer or shorter in one of its directions."""
     by, j = Fraction(chance.choice((11, 2, 9, 30)), 10), chance.randrange(len(witness["centre"]))
+    by = 1 + (by - 1) * chance.size
     for row in witness["matrix"]:
         row[j] = str(Fraction(row[j]) * by)
     witness["inverse"][j] = [str(Fraction(x) / by) for x in witness["inverse"][j]]
 
 
 def edit_step(
-    steps: dict[str, Any], proof: list[str], others: list[dict[str, Any]], chance: random.Random
+    steps: dict[str, Any], proof: list[str], others: list[dict[str, Any]], chance: Chance
 ) -> None:
     """Edit a step of the proof, or another that it rests on; or take one like it from elsewhere."""
     known = [name for name in proof if name in steps]
@@ -227,14 +230,15 @@ def edit_step(
         return
     steps[name] = copy.deepcopy(steps[name])
     if steps[name]["rule"] == "h-set" and chance.random() < 0.5:
-        stretch(steps[name]["witness"], chance)
+        with suppress(LookupError, TypeError, ValueError):  # it may have been edited before
+            stretch(steps[name]["witness"], chance)
         return
     path = place(steps[name]["witness"], chance)
     if path:
         put(steps[name]["witness"], path, chance)
 
 
-def transplant(made: dict[str, Any], proof: list[str], other: dict, chance: random.Random) -> None:
+def transplant(made: dict[str, Any], proof: list[str], other: dict, chance: Chance) -> None:
     """Add what another document proves of a claim, under other names."""
     proofs = other["proofs"] or {name: [name] for name in other["steps"]}
     taken = needed(other["steps"], proofs[chance.choice(list(proofs))])
@@ -252,7 +256,7 @@ def transplant(made: dict[str, Any], proof: list[str], other: dict, chance: rand
         proof[:0] = [names[name] for name in list(taken)[-6:]]
 
 
-def put(value: Any, path: tuple, chance: random.Random) -> None:
+def put(value: Any, path: tuple, chance: Chance) -> None:
     """Edit what is at a path."""
     for key in path[:-1]:
         value = value[key]
@@ -265,7 +269,7 @@ def put(value: Any, path: tuple, chance: random.Random) -> None:
 OTHER = (None, True, [], {}, "", "x", "0", "-1", "+1", "2/2", "1e3", "nan", "9" * 4000, "\u0661")
 
 
-def edit_anywhere(document: dict[str, Any], chance: random.Random) -> dict[str, Any]:
+def edit_anywhere(document: dict[str, Any], chance: Chance) -> dict[str, Any]:
     """Edit whatever is in a certificate, its form too: what is no number, of another type, gone."""
     made = copy.deepcopy(document)
     while not (path := place(made, chance)):

@@ -105,14 +105,27 @@ class Simulation:
         steps = zip(z, *k, strict=True)
         return np.array([x + h / 6 * (a + 2 * (b + c) + d) for x, a, b, c, d in steps])
 
+    def _launched(self, states):
+        """The environment of many flights, and where they start."""
+        env = dict(zip(self.system.variables, states, strict=True))
+        env |= {name: np.full(states.shape[1], value) for name, value in self.parameters.items()}
+        nobody = np.zeros((len(self.names), states.shape[1]))
+        return env, self._rows(self.starts, env, 0.0, nobody)
+
+    def heights(self, states, until):
+        """The gaps along many flights through all walls: of the shape (times, gaps, flights)."""
+        env, z = self._launched(np.asarray(states, float))
+        found = []
+        for k in range(round(until / self.step)):
+            z = self._moved(env, k * self.step, z, self.step)
+            found.append(self._rows(self.gaps, env, (k + 1) * self.step, z))
+        return np.array(found)
+
     def fly(self, states):
         """The values, a row each, at the impacts of many flights; the last row has the times."""
         states = np.asarray(states, float)
         result = np.full((len(self.system.values) + 1, states.shape[1]), np.nan)
-        env = dict(zip(self.system.variables, states, strict=True))
-        env |= {name: np.full(states.shape[1], value) for name, value in self.parameters.items()}
-        nobody = np.zeros((len(self.names), states.shape[1]))
-        z, steps, here = self._rows(self.starts, env, 0.0, nobody), 0, np.arange(states.shape[1])
+        (env, z), steps, here = self._launched(states), 0, np.arange(states.shape[1])
         while here.size and steps * self.step < LATEST:
             t = steps * self.step
             after = self._moved(env, t, z, self.step)

@@ -5,6 +5,7 @@ precision. Sampling proves nothing; what it contradicts is false.
 """
 
 import ast
+import math
 import operator
 from fractions import Fraction
 from functools import lru_cache
@@ -40,7 +41,7 @@ def _built(node):
             return (lambda env: -value(env)), free
         case ast.BinOp(left=base, op=ast.Pow(), right=exponent):
             (value, free), n = _built(base), int(ast.literal_eval(exponent))
-            return (lambda env: value(env) ** n), free
+            return (lambda env: _power(value(env), n)), free
         case ast.BinOp(left=left, op=op, right=right):
             (a, free), (b, more), act = _built(left), _built(right), _OPERATIONS[type(op)]
             return (lambda env: act(a(env), b(env))), free | more
@@ -63,7 +64,19 @@ def _called(name, inner, others, places):
             return value({**env, **{key: other(env) for key, (other, _) in moved.items()}})
 
         return substituted, (free - set(moved)).union(*used)
+    if name == "sqrt":
+        return (lambda env: _root(value(env))), free
     return (lambda env: getattr(value(env), name)()), free
+
+
+def _power(x, n):
+    """Of a ball that holds 0 flint knows no powers."""
+    return math.prod([x] * n, start=flint.arb(1)) if 0 < n < 100 and x.contains(0) else x**n
+
+
+def _root(x):
+    """A square root; of what may be 0, by differences for derivatives, that of what is not < 0."""
+    return x.abs_upper().sqrt().union(flint.arb(0)) if x.contains(0) else x.sqrt()
 
 
 def _derivative(value, name):

@@ -14,6 +14,7 @@ from tests.oracles import (
     kernel,
     laps,
     lines,
+    outcomes,
     planar,
     plastic,
     restitution,
@@ -25,10 +26,11 @@ from tests.oracles.adapter import view
 
 MODULES = (
     *(plastic, sets, circle, laps, restitution, single, singles, formulas, kernel, beyond),
-    curves,
+    *(curves, outcomes),
 )
 OTHER_NAMES = {
     "Impact": plastic.point,
+    "Graze": outcomes.graze,
     "Separation": circle.separation_arc,
     "Between": laps.narrow,
     "Uncovered": sets.exact_measure,  # of which it is a consequence of the names alone

@@ -9,16 +9,21 @@ import numpy as np
 
 from tests.oracles.flights import Simulation, parameters_in, system_of_record
 from tests.oracles.formulas import BITS, STEP, compiled, exact
+from tests.oracles.ode import LONG, Solver
 
-STEP_OF_FLIGHTS = 1 / 10
+STEP_OF_FLIGHTS, SHORT = 1 / 10, 1 / 160
+NARROW = 1e-4  # boxes in which zeros are looked for in short steps
+FLOATS = LONG._replace(step=1 / 8, row=LONG.row[:6])  # a little better than floats
 
 
-def values(function, point):
+def values(function, point, step=STEP_OF_FLIGHTS):
     """The components of a map at a point (Arb numbers); those of a flight from floats."""
     if function.kind == "Composition":
-        return reduce(lambda x, each: values(each, x), function.maps, point)
+        return reduce(lambda x, each: values(each, x, step), function.maps, point)
     if function.kind == "Flight":
-        return [flint.arb(float(x)) for x in simulated(function).fly(column(point))[:-1, 0]]
+        return [flint.arb(float(x)) for x in simulated(function, step).fly(column(point))[:-1, 0]]
+    if function.kind == "Flow":
+        return [flint.arb(float(x)) for x in solved(function)(column(point))[:, 0]]
     env = dict(zip(function.variables, point, strict=True)) | parameters(function)
     return [compiled(text)[0](env) for text in function.trees]
 
@@ -33,12 +38,18 @@ def matrix(function, point):
         return product_
     if function.kind == "Flight":
         return simulated(function).slopes(column(point))[:, :, 0]
+    if function.kind == "Flow":
+        return solved(function).both(column(point))[1][:, :, 0].astype(float)
     columns = [partial(function, point, k) for k in range(len(point))]
     return np.array([[float(x) for x in each] for each in columns]).T
 
 
-def simulated(flight):
-    return Simulation(system_of_record(flight), STEP_OF_FLIGHTS)
+def simulated(flight, step=STEP_OF_FLIGHTS):
+    return Simulation(system_of_record(flight), step)
+
+
+def solved(flow):
+    return Solver(vars(flow) | {"parameters": parameters_in(flow.given)}, FLOATS)
 
 
 def column(point):
@@ -109,11 +120,15 @@ def newton(function, start, box=()):
     return None
 
 
-def _plain(map_):
+def _plain(map_, box=()):
+    """The values, as exact as zeros in a box ask for, and the matrix, in floats."""
+    is_narrow = bool(box) and max(b - a for a, b in box) < NARROW
+    step = SHORT if is_narrow else STEP_OF_FLIGHTS
+
     def function(point):
         balls = [exact(float(x)) for x in point]
         with np.errstate(all="ignore"):
-            return np.array([float(x) for x in values(map_, balls)]), matrix(map_, balls)
+            return np.array([float(x) for x in values(map_, balls, step)]), matrix(map_, balls)
 
     return function
 
@@ -121,8 +136,13 @@ def _plain(map_):
 def image(view, rng):
     """Points of the box are taken into the bounds."""
     with flint.ctx.workprec(BITS):
-        for point in sampled(view.box, rng):
-            for value, (low, high) in zip(values(view.function, point), view.bounds, strict=True):
+        points = list(sampled(view.box, rng))
+        if view.function.kind == "Flow":  # which takes many as fast as one
+            images = solved(view.function)(np.hstack([column(x) for x in points])).T
+        else:
+            images = [values(view.function, point) for point in points]
+        for point, found in zip(points, images, strict=True):
+            for value, (low, high) in zip(found, view.bounds, strict=True):
                 if not float(low) - 1e-6 <= float(value) <= float(high) + 1e-6:
                     return [f"the image of {_told(point)} is not in the bounds"]
     return []
@@ -137,7 +157,7 @@ def zeros_in(function, box, rng):
             if zero is None:
                 continue
             inside = all(
-                float(a) + 1e-9 < x < float(b) - 1e-9 for x, (a, b) in zip(zero, box, strict=True)
+                float(a) - 1e-9 < x < float(b) + 1e-9 for x, (a, b) in zip(zero, box, strict=True)
             )
             if inside and all(np.max(np.abs(zero - other)) > 1e-7 for other in found):
                 found.append(zero)
@@ -145,7 +165,7 @@ def zeros_in(function, box, rng):
 
 
 def unique_zero(view, rng):
-    found = zeros_in(_plain(view.function), view.box, rng)
+    found = zeros_in(_plain(view.function, view.box), view.box, rng)
     return [] if len(found) == 1 else [f"{len(found)} zeros are found"]
 
 
@@ -172,13 +192,14 @@ def periodic_orbits(view, rng):
 def periodic_orbit(view, rng):
     """Newton's method finds one zero of F^n(x) - x - p; its points differ, its multipliers fit."""
     turned = np.array([float(x) for x in shift(view.function, view.turns)])
-    found = zeros_in(_closing(view.function, view.period, turned), view.box, rng)
+    found = zeros_in(_closing(view.function, view.period, turned, view.box), view.box, rng)
     if len(found) != 1:
         return [f"{len(found)} orbits are found"]
-    told, step = [], _plain(view.function)
+    told, step = [], _plain(view.function, view.box)
     points, product_ = [found[0]], np.eye(len(turned))
     for _ in range(view.period):
-        x, slopes = step(points[-1])
+        with flint.ctx.workprec(BITS):
+            x, slopes = step(points[-1])
         points.append(x)
         product_ = slopes @ product_
     one = np.array([float(x) for x in shift(view.function, [1] * len(view.turns))])
@@ -196,8 +217,8 @@ def periodic_orbit(view, rng):
     return told if fits[view.stability] else [*told, f"multipliers of sizes {sizes}"]
 
 
-def _closing(formula, period, turned=0):
-    step = _plain(formula)
+def _closing(formula, period, turned=0, box=()):
+    step = _plain(formula, box)
 
     def function(point):
         x, product = np.array(point), np.eye(len(point))

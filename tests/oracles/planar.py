@@ -1,4 +1,4 @@
-"""Judges of rectangles, horseshoes, barred words and stable cycles of a file's own maps.
+"""Judges of images, horseshoes, barred words and stable cycles of a file's own maps of the plane.
 
 They try points; the map comes from the texts of its formulas alone. What floats cannot tell apart
 is let pass.
@@ -43,33 +43,17 @@ def moved(view, point, turns=()):
     return [x - y for x, y in zip(image, kernel.shift(view.function, turns), strict=True)]
 
 
-def differential(view, rng, image=None, region=None):
-    """Points of the box, or of a part of it, go into the values, with derivatives in the matrix."""
+def faults(view, rng, region, image, matrix=None):
+    """Points of a region go into an image, the derivatives there into a matrix, if there is one."""
     told = []
     with flint.ctx.workprec(BITS):
-        for point in places(region or view.region, rng):
-            if not inside(moved(view, point, view.turns), image or view.values):
+        for point in places(region, rng):
+            if not inside(moved(view, point, view.turns), image):
                 told.append(f"the image of {[float(x) for x in point]} is not in the values")
-            if image:
-                continue
-            entries = kernel.matrix(view.function, point)
-            if not all(inside(*pair, 1e-6) for pair in zip(entries, view.matrix, strict=True)):
+            entries = kernel.matrix(view.function, point) if matrix else ()
+            if not all(inside(*pair, 1e-6) for pair in zip(entries, matrix or (), strict=True)):
                 told.append(f"the derivative at {[float(x) for x in point]} is not in the matrix")
     return told
-
-
-def rectangle(view, rng):
-    """The same for the parts, which are those of the rectangle; its edges go where is said."""
-    (low, high), side = view.region
-    told, reached = [], low
-    for part in view.parts:
-        if part.region[0][0] != reached or part.region[1] != side:
-            told.append("parts that are not those of the rectangle")
-        reached = part.region[0][1]
-        told += differential(part, rng)
-    for end, image in zip((low, high), view.edges, strict=True):
-        told += differential(view, rng, image, ((end, end), side))
-    return told if low < reached == high else [*told, "no parts of a rectangle"]
 
 
 def horseshoe(view, rng):

@@ -11,6 +11,7 @@ import json
 import math
 import sys
 import time
+import tomllib
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -27,6 +28,7 @@ from proofs.trusted.verify import check
 
 TURN = 2 * math.pi
 STEP, LATEST = 1e-2, 80.0
+ROOM = 1e-2  # of multipliers to 1
 MOST = 8  # conclusions of one claim that are simulated, spread over all
 
 
@@ -212,14 +214,14 @@ def _flown(start, force, gaps):
 # -- what is proved, against simulation ------------------------------------------------------------
 
 
-def answers(of: Case, folder: Path) -> list[dict]:
+def answers(of: Case, folder: Path, *more: str) -> list[dict]:
     """Run the command, as a user would; return the claims of its machine form."""
     if of.file:
         (folder / "system.toml").write_text(of.file)
     where = [str(folder / "system.toml")] if of.file else of.arguments
     out = io.StringIO()
     with contextlib.redirect_stdout(out):
-        status = main([*where, "--json", "-", "--quiet"])
+        status = main([*where, "--json", "-", "--quiet", *more])
     claims = json.loads(out.getvalue())["claims"]
     decided = all(claim["verdict"] == "VERIFIED" for claim in claims)
     if status != (0 if decided else 1):
@@ -310,22 +312,97 @@ def _covers(of, local, sign):
     return True
 
 
+# -- what simulation sees --------------------------------------------------------------------------
+
+
+def seen_orbits(of: Case, period: int, starts: int, rng: Random) -> list[np.ndarray]:
+    """Hyperbolic orbits of a least period that Newton's method on the simulation comes to."""
+    sides, orbits = _sides(of), []
+    for _ in range(starts):
+        point = _newton(of, np.array([rng.uniform(*side) for side in sides]), period)
+        if point is None or not _is_hyperbolic(of, point, period):
+            continue
+        points = np.array([_iterated(of, point, k) for k in range(period)])
+        inside = all(p or low <= x <= high for (low, high), p, x in _each(sides, of, point))
+        if inside and not any(_is_on(of, point, other) for other in orbits):
+            orbits.append(points)
+    return orbits
+
+
+def _each(sides, of, point):
+    return zip(sides, of.periods, point, strict=True)
+
+
+def _sides(of):
+    """Where the command looks for orbits."""
+    head = tomllib.loads(of.file) if of.file else {"variables": ["x", "y"]}
+    region = {k: tuple(map(float, v)) for k, v in head.get("region", {}).items()}
+    names = zip(head["variables"], of.periods, strict=False)
+    return [(0.0, period) if period else region.get(each, (-3.0, 3.0)) for each, period in names]
+
+
+def _newton(of, x, period):
+    for _ in range(10):
+        try:
+            change = _apart(of, _iterated(of, x, period) - x)
+            x = x - (step := np.linalg.solve(_jacobian(of, x, period) - np.eye(len(x)), change))
+        except (np.linalg.LinAlgError, OverflowError):
+            return None
+        if not np.abs(step).max() < 10:
+            return None
+        if np.abs(step).max() < 1e-7:
+            return x
+    return None
+
+
+def _is_hyperbolic(of, x, period):
+    """And of this least period."""
+    if any(_is_on(of, x, _iterated(of, x, k)[None]) for k in range(1, period)):
+        return False
+    sizes = np.abs(np.linalg.eigvals(_jacobian(of, x, period)))
+    return bool((np.abs(sizes - 1) > ROOM).all())
+
+
+def _is_on(of, x, points):
+    return any(np.abs(_apart(of, x - each)).max() < 1e-5 for each in points)
+
+
+def has_theorem(of: Case, orbit: np.ndarray, claims: list[dict]) -> bool:
+    """Whether a theorem is about an orbit that simulation sees."""
+    proved = [
+        np.array([float(sum(side)) / 2 for side in each.box])
+        for claim in claims
+        if claim["certificate"]
+        for each in check(json.dumps(claim["certificate"])).conclusions
+        if isinstance(each, PeriodicOrbit) and each.period == len(orbit)
+    ]
+    return any(_is_on(of, x, orbit) for x in proved)
+
+
+def _told(seed: int, folder: Path, counts: Counter) -> float:
+    """Run one case, count and print; return the time that it took."""
+    of, begun = case(seed), time.process_time()
+    claims = answers(of, folder, "--effort", "2")
+    took, wrong = time.process_time() - begun, falsehoods(of, claims)
+    counts["false"] += len(wrong)
+    for claim in claims:
+        counts[of.kind, claim["id"], claim["verdict"]] += 1
+        counts[of.kind, claim["id"], "theorems"] += len(claim["theorems"])
+    for period in (1, 2):
+        for orbit in seen_orbits(of, period, 12, Random(seed)):
+            counts[of.kind, f"seen, period {period}"] += 1
+            counts[of.kind, f"with a theorem, period {period}"] += has_theorem(of, orbit, claims)
+    print(seed, of.kind, round(took, 1), wrong, flush=True)
+    return took
+
+
 if __name__ == "__main__":
     first, last = (
         (int(sys.argv[1]), int(sys.argv[2])) if len(sys.argv) > 2 else (0, int(sys.argv[1]))
     )
-    counts, times = Counter(), []
-    with TemporaryDirectory() as folder:
-        for seed in range(first, last):
-            of, begun = case(seed), time.process_time()
-            claims = answers(of, Path(folder))
-            times.append(time.process_time() - begun)
-            for claim in claims:
-                counts[of.kind, claim["id"], claim["verdict"]] += 1
-                counts[of.kind, claim["id"], "theorems"] += len(claim["theorems"])
-            wrong = falsehoods(of, claims)
-            counts["false"] += len(wrong)
-            print(seed, of.kind, round(times[-1], 1), wrong, flush=True)
-    for key, count in sorted(counts.items(), key=str):
+    totals = Counter()
+    with TemporaryDirectory() as where:
+        times = [_told(seed, Path(where), totals) for seed in range(first, last)]
+    for key, count in sorted(totals.items(), key=str):
         print(key, count)
     print("CPU s: mean", sum(times) / len(times), "most", max(times))

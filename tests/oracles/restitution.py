@@ -39,13 +39,13 @@ def _entries(found, bounds):
 
 
 def differential(view, rng):
-    """All states are possible; phases, velocities and derivatives of their images."""
+    """Values and derivatives on a region; of an oscillator all states there are possible."""
+    return _faults(view, rng, view.region, view.values, view.matrix)
+
+
+def _faults(view, rng, region, image, matrix=None):
     if planar.is_of_a_file(view):
-        return planar.differential(view, rng)
-    return _map_faults(view, rng, view.region, view.values, view.matrix)
-
-
-def _map_faults(view, rng, region, image, matrix):
+        return planar.faults(view, rng, region, image, matrix)
     told = []
     if view.box[0][0] <= 0 or view.box[1][0] * view.box[1][1] <= 0 or not view.box[2][0] >= 0:
         return ["the box leaves the model"]
@@ -67,18 +67,16 @@ def _map_faults(view, rng, region, image, matrix):
 
 
 def rectangle(view, rng):
-    """The same on the parts of a rectangle, with the images of its left and right edges."""
-    if planar.is_of_a_file(view):
-        return planar.rectangle(view, rng)
-    (low, high), velocities = view.region
+    """The same on the parts, which are those of a rectangle, and for its left and right edges."""
+    (low, high), side = view.region
     told, reached = [], low
     for part in view.parts:
-        if part.region[0][0] != reached or part.region[1] != velocities:
+        if part.region[0][0] != reached or part.region[1] != side:
             told.append("parts that are not those of the rectangle")
         reached = part.region[0][1]
         told += differential(part, rng)
     for end, image in zip((low, high), view.edges, strict=True):
-        told += _map_faults(view, rng, ((end, end), velocities), image, None)
+        told += _faults(view, rng, ((end, end), side), image)
     return told if low < reached == high else [*told, "no parts of a rectangle"]
 
 
@@ -86,10 +84,7 @@ def horseshoe(view, rng):
     """What it says of its sets is true."""
     if planar.is_of_a_file(view):
         return planar.horseshoe(view, rng)
-    sets = [SimpleNamespace(left=a[0], right=b[0], velocities=a[1]) for a, b in [view.boxes[:2]]]
-    if len(view.boxes) == 4:
-        sets = [SimpleNamespace(after_first=view.boxes[:2], after_second=view.boxes[2:])]
-    return rectangle_horseshoe(SimpleNamespace(**{**vars(view), "strips": sets[0]}), rng)
+    return rectangle_horseshoe(view, rng)
 
 
 def barred_word(view, rng):
@@ -108,7 +103,7 @@ def _shortfall(view, word, rng, shares=(0, 1, None)):
     The next phase increases with the phase; so the phases (at one velocity) whose images follow
     part of a word are an interval, found by bisection.
     """
-    boxes = view.boxes if hasattr(view, "boxes") else _boxes(view.strips)
+    boxes = _boxes(view)
     least, sets = None, [phases for phases, _ in boxes]
     for given in shares:
         share = Fraction(rng.random() if given is None else given)
@@ -175,8 +170,11 @@ def _rates(derivative, rates):
         yield "the rates are not hyperbolic"
 
 
-def _boxes(strips):
-    """The rectangles, V1 and V2 by turns: two, or two for the states after V1 and two after V2."""
+def _boxes(view):
+    """The rectangles; V1 and V2 by turns: two, or two for the states after V1 and two after V2."""
+    if hasattr(view, "boxes"):
+        return view.boxes
+    strips = view.strips
     if hasattr(strips, "velocities"):
         return [(strips.left, strips.velocities), (strips.right, strips.velocities)]
     return [*strips.after_first, *strips.after_second]
@@ -184,7 +182,7 @@ def _boxes(strips):
 
 def _impacts(view, rng, count=5):
     """States of the rectangles, which of them, and the next impacts."""
-    for index, (phases, velocities) in enumerate(_boxes(view.strips)):
+    for index, (phases, velocities) in enumerate(_boxes(view)):
         for state in _states(view.box, phases, velocities, rng, count):
             found = _launched(state)
             if found is not None:
@@ -195,10 +193,11 @@ def rectangle_horseshoe(view, rng):
     """Edges are mapped beyond the rectangles that are next, by the margin, images there to
     velocities in them, and into no others; vectors grow and shrink.
     """
-    told, boxes = [], _boxes(view.strips)
+    told, boxes = [], _boxes(view)
+    arrows = getattr(view, "arrows", [(0, 1)] * 2 if len(boxes) == 2 else [(0, 1), (2, 3)] * 2)
     low, high = (min(box[0][0] for box in boxes), max(box[0][1] for box in boxes))
     for state, index, found in _impacts(view, rng, 12):
-        following = boxes[2:] if len(boxes) == 4 and index % 2 else boxes[:2]
+        following = [boxes[k] for k in arrows[index]]
         edges = [_launched((*state[:3], edge, state[4])) for edge in boxes[index][0]]
         if not all(isinstance(one, Impact) for one in (found, *edges)):
             told += [one for one in (found, *edges) if isinstance(one, str)]
@@ -206,13 +205,19 @@ def rectangle_horseshoe(view, rng):
         told += _rates(found.derivative(), view.rates)
         turns = round((float(edges[0].lifted + edges[1].lifted) - float(low + high)) / 2 / TURN)
         first, last = sorted((one.turned(turns) for one in edges), key=float)
-        ends = following[0][0][0] - view.margin, following[1][0][1] + view.margin
+        sides = [side for (side, _) in following]
+        ends = min(sides)[0] - view.margin, max(side[1] for side in sides) + view.margin
         if first > ball(ends[0]) or last < ball(ends[1]):
             told.append(f"edges are mapped to {first.str(9)}, {last.str(9)}, not beyond both sets")
         for phases, velocities in boxes:
             if not inside(found.turned(turns), phases):
                 continue
-            if ((phases, velocities) in following) != inside(found.velocity, velocities):
+            is_inside = inside(found.velocity, velocities)
+            if (phases, velocities) in following:
+                is_false = not is_inside
+            else:
+                is_false = is_inside and getattr(view, "is_complete", True)
+            if is_false:
                 told.append(f"an image velocity is {found.velocity.str(9)}")
     return told if view.margin > 0 else [*told, "no margin"]
 

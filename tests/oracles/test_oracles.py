@@ -13,13 +13,13 @@ from tests.oracles.judge import judge, judge_of
 from tests.oracles.motion import TURN, ball
 from tests.oracles.plastic import between, lifted
 from tests.oracles.sources import (
+    about_curves,
     boxes,
     certificates,
     classes,
     committed_conclusions,
     committed_rows,
     conclusions,
-    curves,
     lemmas,
     proved,
     rows,
@@ -65,7 +65,7 @@ def by_hand():
     from proofs.trusted.paper.s32_sets.moran import NoGap
     from proofs.trusted.parameters import Place
 
-    return NoGap((F(1, 2), F(3, 5))), OnlyTouches(Place.plastic(F(1), F(-2))), *curves()
+    return NoGap((F(1, 2), F(3, 5))), OnlyTouches(Place.plastic(F(1), F(-2))), *about_curves()
 
 
 def test_every_class_of_conclusions_has_an_oracle_and_is_proved_and_made_false():
@@ -234,7 +234,6 @@ FALSE = {
     "Branch": [
         put("windows", lambda old: tuple((low + 60, high + 60) for low, high in old)),
         put("windows", lambda old: tuple((low, (low + high) / 2) for low, high in old)),
-        put("turn", lambda old: old + 2),
     ],
     "EntropyBound": [
         offs("entropy"),
@@ -427,6 +426,13 @@ FALSE = {
     ],
     "UniqueZero": [put("box", lambda old: tuple((b + 10, b + 11) for _, b in old))],
     "Image": [put("bounds", lambda old: tuple((b + 10, b + 11) for _, b in old))],
+    "NoImpact": [put("box", lambda old: (*old[:-1], (F(-2), F(-2))))],
+    "Pressed": [put("box", lambda old: (*old[:-1], (F(2), F(2))))],
+    "Graze": [
+        put("rises", lambda old: not old),
+        offs("time"),
+        lambda record: offs("box", record.axis)(record),
+    ],
     "PeriodicOrbit": [
         put("box", lambda old: tuple((b + 10, b + 11) for _, b in old)),
         put("period", lambda old: 2 * old),

@@ -4,6 +4,7 @@ import json
 import math
 import time
 from fractions import Fraction
+from functools import cache
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from intervals import Undecided
 from proofs import Map, System
 from proofs.commands.system import main
 from proofs.methods.grammar import GrammarError
+from proofs.trusted.kernel.enclose import enclosed, point_box
 from proofs.trusted.verify import Rejected, check
 
 HENON = Map("1 - 1.4*x^2 + y", "0.3*x")
@@ -164,6 +166,29 @@ def test_an_orbit_of_the_billiard_whose_flights_last_half_a_period():
     )
 
 
+@pytest.mark.long
+def test_the_horseshoe_of_roesslers_flow():
+    """CAPD proves that on two sets the second return has the entropy log 2, at least."""
+    system = System.example("roessler")
+    system.effort = 5
+    (entropy,) = accepted(system.horseshoe())
+    assert (entropy.growth, entropy.length) == (2, 1)
+    assert "at the 2nd `t > 0` at which `x` rises through 0" in entropy.sentence
+
+
+def test_a_later_return_is_that_of_the_iterate():
+    """The solution goes on from the section: P2 = P P, enclosed on ways of their own."""
+    system = System.example("roessler")
+    file = system._derivation(**system._return(2))
+    once, twice = file.map("P"), file.map("P2")
+    for point in (("-8.4", "0.03"), ("-5.2", "0.031")):
+        x = enclosed(point_box(tuple(map(Fraction, point))), 64)
+        both = zip(once.values(once.values(x)), twice.values(x), strict=True)
+        assert all(max(a.lo, b.lo) <= min(a.hi, b.hi) for a, b in both)
+        assert max(b.hi - b.lo for b in twice.values(x)) >> 24 == 0
+    assert system._return(1) == BALL._return(2) == {}
+
+
 @pytest.mark.slow
 def test_a_horseshoe_of_the_bouncing_ball():
     entropy, cone = accepted(BALL.horseshoe())
@@ -174,9 +199,8 @@ def test_a_horseshoe_of_the_bouncing_ball():
 @pytest.mark.parametrize(
     ("name", "state", "told"),
     [
-        ("bouncing-ball", {"phi": "1.02", "v": "-3"}, "rests or sticks"),
         ("bouncing-ball", {"phi": "0", "v": "1"}, "chatter"),
-        ("two-walls", {"a": "0", "v": "3"}, "rests or sticks"),
+        ("wall", {"a": "0.3", "v": ("-0.2", "-0.1")}, "ask for `graze`"),
     ],
 )
 def test_what_happens_instead_of_an_impact_is_said_with_the_next_step(name, state, told):
@@ -185,13 +209,73 @@ def test_what_happens_instead_of_an_impact_is_said_with_the_next_step(name, stat
     assert "give" in str(reason.value) and "\n" not in str(reason.value)
 
 
+@pytest.mark.parametrize(
+    ("name", "state"),
+    [
+        ("bouncing-ball", {"phi": "1.02", "v": "-3"}),
+        ("two-walls", {"a": "0", "v": "3"}),
+    ],
+)
+def test_no_flight_begins_towards_the_wall(name, state):
+    (pressed,) = accepted(System.example(name).impact(**state))
+    assert pressed.kind == "Pressed" and pressed.sentence.endswith("as before an impact.")
+
+
+def mine(**changes):
+    """The ball with what its state is in contact, and other values of its parameters."""
+    (impact,) = BALL._file.file["impact"]
+    return System({**BALL._file.file, "impact": [{**impact, "rest": {"v": "cos(phi)"}}]}, **changes)
+
+
+def test_a_ball_rests_where_the_table_does_not_fall_faster():
+    """Contact is kept where -sin(phi) > -g; with g > 1 at all phases."""
+    (always,) = accepted(mine(g="1.1").rest(phi=("0", "6.2832")))
+    assert "where it rests or sticks" in always.sentence
+    assert accepted(mine(g="0.5").rest(phi=("-3.66", "0.52")))
+    for phi in (("-3.67", "0"), ("0", "0.53"), ("1", "1")):
+        with pytest.raises(Undecided, match="no flight begins"):
+            mine(g="0.5").rest(phi=phi)
+    with pytest.raises(GrammarError, match="no 'rest'"):
+        BALL.rest(phi="0")
+
+
+@cache
+def far_wall(*more):
+    """The wall at 1, out of the reach of the forced oscillation, whose amplitude is 0.146."""
+    file = System.example("wall")._file.file
+    motion = {"x": {**file["motion"]["x"], "start": ["1", "v"]}}
+    impacts = [{**file["impact"][0], "gap": "1 - x", **dict(each)} for each in ((), *more)]
+    return System({**file, "motion": motion, "impact": impacts})
+
+
+def test_there_is_no_further_impact_where_damping_wins():
+    (never,) = accepted(far_wall().impact(a="0.3", v=("-0.1", "-0.09")))
+    assert never.kind == "NoImpact" and "at all `t` > 0" in never.sentence
+    assert far_wall().impact(a="0.3", v="-1").conclusion.kind == "Image"
+
+
+def test_a_graze_is_between_an_impact_and_none():
+    (graze,) = accepted(far_wall().graze(a="0.3", v=("-1", "-0.1")))
+    (low, high), (start, end) = graze.box[1], graze.time
+    assert graze.kind == "Graze" and graze.rises
+    impact, none = (far_wall().impact(a="0.3", v=v).conclusion for v in (low, high))
+    assert start < impact.bounds[-1][0] < end and none.kind == "NoImpact"
+    with pytest.raises(Undecided, match="no graze is seen"):
+        BALL.graze(phi="0.3", v=("1.5", "1.6"))
+    with pytest.raises(Undecided, match="one variable with a range"):
+        BALL.graze(phi="0.3", v="1.5")
+
+
+def test_two_walls_at_once_are_no_impact_with_one():
+    with pytest.raises(Undecided, match="two walls may be hit at once"):
+        far_wall((("wall", "other"),)).impact(a="0.3", v="-1")
+
+
 @pytest.mark.slow
 def test_orbits_with_two_walls():
     walls = System.example("two-walls")
     (found,) = accepted(walls.orbits(1))
     assert walls.walls == ("right", "left") and found.turns == (1,)
-    with pytest.raises(Undecided):
-        walls.around("right", "right").impact(a="1", v="3")
     with pytest.raises(ValueError, match="no wall 'top'"):
         walls.around("top")
 
@@ -277,6 +361,12 @@ def test_the_time_is_over(capsys):
     assert time.monotonic() - began < 1.7
     said = capsys.readouterr().out
     assert said.count("stopped after 0.7 seconds, as asked") == 2 and "points at random" not in said
+
+
+def test_what_comes_next_is_asked(capsys):
+    assert main(["--example", "wall", "--ask", "impact:a=0.3,v=-1", "impact:a=0.3,v=1"]) == 0
+    said = capsys.readouterr().out
+    assert "its values are in" in said and "it moves into the wall" in said
 
 
 @pytest.mark.slow

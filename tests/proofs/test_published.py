@@ -57,9 +57,11 @@ def test_certificates_are_about_the_systems_of_their_pages():
         if file in CURVES:
             assert all(is_residual(each, own["P"]) for each in functions.values())
             continue
+        if "section" in (end := own.get("P", {}).get("end", {})):
+            own = {**own, "P2": {**own["P"], "end": {**end, "count": "2"}}}  # the second return
         assert {*functions} <= {*own, "Impact"}
         for key in {*functions} & {*own}:
-            parts = {"variables", "periods", "gaps", "values", "maps"} & {*own[key]}
+            parts = {"variables", "periods", "gaps", "values", "maps", "end"} & {*own[key]}
             assert parts and all(functions[key][part] == own[key][part] for part in parts)
 
 

@@ -14,16 +14,11 @@ from proofs.methods.bifurcation.classify import classified
 from proofs.methods.bifurcation.maps import Map
 from proofs.methods.bifurcation.normal_forms import NormalForm
 from proofs.methods.formulas import dot, inverse, jacobian, values
-from proofs.methods.lemmas import Lemmas
-from proofs.trusted.certificate import Malformed, Reader
-from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.context import Context
+from proofs.methods.lemmas import Lemmas, derived
+from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.formulas import read_formulas
-from proofs.trusted.kernel.meter import DEFAULT, Exhausted, metered
 from proofs.trusted.kernel.trees import formula
-from proofs.trusted.kernel.values import equal
 from proofs.trusted.numbers import Range
-from proofs.trusted.rules import Rule
 
 _SPARE_DIGITS = 12
 _NEWTON = 60  # steps from a guess
@@ -34,20 +29,8 @@ def prove_jacobian(file: Lemmas, of: Map) -> None:
     """Add that the Jacobian is what sympy finds: G_x1 J + G_x = 0, entry by entry."""
     texts = [[derive.write(entry) for entry in row] for row in of.jacobian.tolist()]
     for entry in of.implicit(texts):
-        confirm(file, file.equal(entry, "0"), equal)
-
-
-def confirm(file: Lemmas, name: str, rule: Rule) -> None:
-    """Take a step back, and raise Undecided, where the checker does not derive it.
-
-    What sympy finds may rest on identities that the checker has not: exp(log(x)) = x, for one.
-    """
-    try:
-        with metered(DEFAULT):
-            rule(Context(), Reader(file.steps[name]["witness"]))
-    except (Unproved, Malformed, Exhausted) as failure:
-        del file.steps[name]
-        raise Undecided(f"what sympy finds is not derived by the checker: {failure}") from None
+        with derived():
+            file.equal(entry, "0")
 
 
 def charts(form: NormalForm) -> list[NormalForm]:
@@ -97,13 +80,13 @@ def enclosure(
     file: Lemmas, form: NormalForm, parameter: str, near: Mapping[str, Fraction], digits: int
 ) -> Enclosed:
     """Prove an enclosure in the first chart of the centre manifold in which that succeeds."""
-    reason, steps = Undecided("no chart"), dict(file.steps)
+    reason = Undecided("no chart")
     for each in charts(form):
         try:
-            return prove_enclosure(file, each, parameter, near, digits)
+            with file.undone():
+                return prove_enclosure(file, each, parameter, near, digits)
         except Undecided as failure:
             reason = failure
-            file.steps, file.functions = dict(steps), {}
     raise reason
 
 
@@ -119,7 +102,7 @@ def prove_enclosure(
     bits = (digits + _SPARE_DIGITS) * 4
     guess = _guess(form, parameter, near, bits)
     name = f"F{len(file.functions) + 1}"
-    file.functions = {**file.functions, name: (names, [text for each in orders for text in each])}
+    file.define(name, (names, [text for each in orders for text in each]))
     radius = Fraction(1, 10 ** (digits + 2))
     step = file.unique_zero(name, [guess[each] for each in names], radius, bits=bits)
     box = {

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from typing import Any
 
 from intervals import IntervalError, Undecided
 from proofs.methods import derive
-from proofs.methods.bifurcation.certify import charts, confirm
+from proofs.methods.bifurcation.certify import charts
 from proofs.methods.bifurcation.classify import Class, classified
 from proofs.methods.bifurcation.normal_forms import NormalForm
 from proofs.methods.bifurcation.solving import (
@@ -19,26 +20,27 @@ from proofs.methods.bifurcation.solving import (
     points,
     roots_of,
 )
-from proofs.methods.lemmas import Lemmas
+from proofs.methods.lemmas import Lemmas, derived
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.solutions import solution
-from proofs.trusted.kernel.values import Equal, Series, value
+from proofs.trusted.kernel.values import Equal, Series
 
 _SIGN_BITS = 200
-ROOT = "root"  # a parameter, where the closed form has a root of parameters
+ROOT = "root"  # a parameter, where the closed form has a root of parameters; the next is root2
+_MOST_ROOTS = 3
+_ALIKE = 1e-12
 
 
 @dataclass(frozen=True)
 class Closed:
     """A candidate in closed form: expressions by name, what it is, and the signs that decide.
 
-    root: the square of ROOT, where that is a parameter, by the parameters of the map.
+    roots: the squares of roots that are parameters, each by those before and the map's.
     """
 
     values: Solution
     found: Class
     signs: Mapping[str, int]
-    root: Any = None
+    roots: Solution = field(default_factory=dict)
 
     @property
     def kept(self) -> bool:
@@ -59,7 +61,7 @@ def closed(file: Lemmas, form: NormalForm, names: tuple[str, ...]) -> list[Close
     found = [_classified(file, form, each, parameter) for each in plain]
     for each in candidates:
         if _rooted(each) and not any(_is_reached(each, other) for other in found):
-            found.append(_by_a_root(file, form, names, each))
+            found.append(_by_roots(file, form, names, each, {}))
     return found
 
 
@@ -68,39 +70,62 @@ def _rooted(point: Solution) -> bool:
 
 
 def _is_reached(point: Solution, other: Closed) -> bool:
-    """Whether a point is that of a candidate with ROOT, for one sign of it."""
+    """Whether a point is that of a candidate with roots, for one sign of each."""
     import sympy
 
-    if (root := other.root) is None:
-        return False
-    shown = [{ROOT: sign * sympy.sqrt(root)} for sign in (1, -1)]
-    return any(
-        all((point[x] - other.values[x].subs(each)).equals(0) for x in point) for each in shown
-    )
+    shown = [other.values] if other.roots else []
+    for name, square in reversed(other.roots.items()):
+        signs = [{name: sign * sympy.sqrt(square)} for sign in (1, -1)]
+        shown = [{x: v.subs(each) for x, v in values.items()} for values in shown for each in signs]
+    return any(all(_alike(point[x], values[x]) for x in point) for values in shown)
 
 
-def _by_a_root(file: Lemmas, form: NormalForm, names: tuple[str, ...], point: Solution) -> Closed:
-    """Classify a candidate whose root of parameters is a parameter, ROOT, in place of another one.
+def _alike(one: Any, two: Any) -> bool:
+    """Whether two expressions are about the same at some numbers."""
+    names = sorted((one - two).free_symbols, key=str)
+    places = {x: Fraction(k * k + 3, k + 2) for k, x in enumerate(names)}
+    return abs(complex((one - two).evalf(30, subs=places))) < _ALIKE
 
-    If the root is of r, and r = ROOT^2 has one solution for a parameter, a rational one, that is
+
+def _by_roots(
+    file: Lemmas, form: NormalForm, names: tuple[str, ...], point: Solution, roots: Solution
+) -> Closed:
+    """Classify a candidate whose roots of parameters are parameters, in place of other ones.
+
+    If a root is of r, and r = ROOT^2 has one solution for a parameter, a rational one, that is
     put into the map: what is proved is so for all ROOT, of either sign, at which it is defined.
+    Then the next root, inside of which others may have stood. roots: those before, by their names.
     """
     import sympy
 
-    square = next((x.base for x in roots_of(point) if x.exp.q == 2 and x.base.free_symbols), None)
-    free = {*form.map.parameters} - {*names, ROOT}
-    inside = sorted(free & {str(x) for x in square.free_symbols}) if square is not None else []
-    for name in inside if ROOT not in form.map.parameters else []:
-        values = sympy.solve(square - sympy.Symbol(ROOT) ** 2, sympy.Symbol(name))
-        if len(values) != 1 or has_roots({name: values[0]}):
+    name = f"{ROOT}{len(roots) + 1}" if roots else ROOT
+    left = Closed(point, Class("undecided", "with roots of parameters"), {})
+    squares = [x.base for x in roots_of(point) if x.exp.q == 2 and x.base.free_symbols]
+    square = next((x for x in squares if not has_roots({name: x})), None)
+    if square is None or name in form.map.parameters or len(roots) == _MOST_ROOTS:
+        return left
+    free = {*form.map.parameters} - {*names, *roots}
+    for parameter in sorted(free & {str(x) for x in square.free_symbols}):
+        values = sympy.solve(square - sympy.Symbol(name) ** 2, sympy.Symbol(parameter))
+        if len(values) != 1 or has_roots({parameter: values[0]}):
             continue
-        moved = replace(form, map=form.map.with_numbers(**{name: derive.write(values[0])}))
-        found = [x for x in points(moved, names) if not _rooted(x) and _uses(x, ROOT)]
-        if found:
-            parameter = next(name for name in names if name not in form.map.state)
-            made = _classified(file, moved, found[0], parameter)
-            return replace(made, values={**made.values, name: values[0]}, root=square)
-    return Closed(point, Class("undecided", "with roots of parameters"), {})
+        moved = replace(form, map=form.map.with_numbers(**{parameter: derive.write(values[0])}))
+        for each in points(moved, names):
+            if _uses(each, name):
+                made = _reduced(file, moved, names, each, {**roots, name: square})
+                placed = values[0].subs({x: made.values[x] for x in free & {*made.values}})
+                return replace(made, values={**made.values, parameter: derive.simplest(placed)})
+    return left
+
+
+def _reduced(
+    file: Lemmas, form: NormalForm, names: tuple[str, ...], point: Solution, roots: Solution
+) -> Closed:
+    """Classify a candidate of a map that has these roots as parameters."""
+    if _rooted(point):
+        return _by_roots(file, form, names, point, roots)
+    parameter = next(name for name in names if name not in form.map.state)
+    return replace(_classified(file, form, point, parameter), roots=roots)
 
 
 def _uses(point: Solution, name: str) -> bool:
@@ -109,16 +134,15 @@ def _uses(point: Solution, name: str) -> bool:
 
 def _classified(file: Lemmas, form: NormalForm, point: Solution, parameter: str) -> Closed:
     """Classify a candidate, and add the proof; what fails in it is told as why it is dropped."""
-    numbers, steps = Numbers(file, form, point, parameter), dict(file.steps)
+    numbers = Numbers(file, form, point, parameter)
     try:
-        numbers.require_defined()
-        found = classified(form.kind, len(form.map.state) == 2, numbers.sign)
-        if numbers.open_domain:
-            found = found._replace(where=(*found.where, "the map is defined"))
-        numbers.prove()
+        with file.undone():
+            numbers.require_defined()
+            found = classified(form.kind, len(form.map.state) == 2, numbers.sign)
+            if numbers.open_domain:
+                found = found._replace(where=(*found.where, "the map is defined"))
+            numbers.prove()
     except Undecided as failure:
-        file.steps.clear()
-        file.steps.update(steps)
         return Closed(point, Class("undecided", str(failure)), {})
     return Closed({**point, **numbers.values}, found, numbers.signs)
 
@@ -179,11 +203,11 @@ class Numbers:
 
     def _proved_sign(self, text: str) -> int:
         """Prove the sign of a number, and that it is defined."""
-        try:
-            low, high = self.file.bounds(text, 6, _SIGN_BITS)
-        except (IntervalError, Unproved) as failure:
-            raise Undecided(f"{text[:60]} is not defined: {failure}") from None
-        confirm(self.file, list(self.file.steps)[-1], value)
+        with derived():
+            try:
+                low, high = self.file.bounds(text, 6, _SIGN_BITS)
+            except (IntervalError, Unproved) as failure:
+                raise Undecided(f"{text[:60]} is not defined: {failure}") from None
         if low <= 0 <= high:
             raise Undecided(f"whether {text[:40]} is 0")
         return 1 if low > 0 else -1
@@ -242,13 +266,9 @@ class Numbers:
         if self._normal is not None:
             sides = [*self._conjugate(), Equal.read(self.form.criticality, "critical")]
             sides.append(Equal.read(self.form.speed(self.parameter), "speed"))
-        name = self.file.solution(
-            {name: derive.write(value) for name, value in given.items()},
-            *rest,
-            *sides,
-            *self._lemmas,
-        )
-        confirm(self.file, name, solution)
+        values = {name: derive.write(value) for name, value in given.items()}
+        with derived():
+            self.file.solution(values, *rest, *sides, *self._lemmas)
 
     def _conjugate(self) -> list[Equal] | list[Series]:
         """Return that the map is the normal form in the chart, see `normal_forms`.

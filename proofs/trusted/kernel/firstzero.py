@@ -87,7 +87,10 @@ class FirstZero:
         end = Enclosure.of(until, until, self.bits).hi
         for step in self._steps(min(end, self._first) if self.gap.is_constant else end):
             if step.end is not None:
-                raise Unproved(f"another gap is not proved > 0 until the impact, {self._place}")
+                time = round(until, 6)
+                raise Unproved(
+                    f"a gap is not proved > 0 up to the time {show(time)}, {self._place}"
+                )
 
     def _steps(self, end: int) -> Iterator[Step]:
         low, step, leaving = 0, self._first, self.gap.order > 0

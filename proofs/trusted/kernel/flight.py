@@ -120,11 +120,20 @@ class Flight:
         return self.formulas.roots[len(self.gaps) :]
 
     @property
+    def time(self) -> str:
+        """The name of the time."""
+        return self.formulas.variables[self.state]
+
+    @property
+    def walls(self) -> tuple[Tree, ...]:
+        """The gaps, as they are written."""
+        return self.formulas.trees[: len(self.gaps)]
+
+    @property
     def definition(self) -> str:
         """Write F(x, ...) = ... at the first t > 0 where gap = 0, and what the motion is."""
-        time, count = self.formulas.variables[self.state], len(self.gaps)
-        first, *others = (f"`{gap}`" for gap in self.formulas.trees[:count])
-        values = ", ".join(map(str, self.formulas.trees[count:]))
+        time, (first, *others) = self.time, (f"`{gap}`" for gap in self.walls)
+        values = ", ".join(map(str, self.formulas.trees[len(self.gaps) :]))
         walls = f" and {', '.join(others)} > 0 after launch until it" if others else ""
         motions = "; ".join(motion.said(time) for motion in self.motions)
         return (

@@ -99,15 +99,16 @@ def graph(context: Context, reader: Reader) -> Graph:
     """
     (names,) = reader.fields("covers")
     steps = tuple(context.step(name, Covers) for name in names.items(least=1))
-    first, of_source = steps[0].local, dict[int, Map]()
+    first, maps = steps[0].local, dict[int | str, Map]()
     places: dict[int, int] = {}
     nodes: list[HSet] = []
     edges: dict[tuple[int, int], Covers] = {}
     for name, step in zip(names.items(), steps, strict=True):
         local = step.local
         ends = (local.source, local.target)
-        if of_source.setdefault(id(ends[0]), local.map) != local.map:
-            raise name.fail("a relation of another map from the same set")
+        for key in (id(ends[0]), local.map.name):
+            if maps.setdefault(key, local.map) != local.map:
+                raise name.fail("a relation of another map from the same set, or of the same name")
         if local.power != first.power or (local.map != first.map and local.power > 1):
             raise name.fail("a relation of another map or iterate")
         if not same_state(local.map, first.map):

@@ -23,7 +23,7 @@ from proofs.trusted.kernel.rectangles import (
     read_rectangles,
 )
 from proofs.trusted.kernel.words import BarredWord, never_ends
-from proofs.trusted.numbers import floor_text, show_range
+from proofs.trusted.numbers import floor_text, increasing, show_range
 
 _MOST = 64  # rectangles
 
@@ -73,7 +73,8 @@ class Horseshoe(Conclusion):
 
 def horseshoe(context: Context, reader: Reader) -> Horseshoe:
     """Rule `horseshoe`: {rectangles N_1, ..., N_n: names, arrows: for each those that follow, by
-    number, cone: [slope, width]}, and if given wider: {rectangles M_1, ..., M_n, words}.
+    increasing numbers, cone: [slope, width]}, and if given wider: {rectangles M_1, ..., M_n,
+    words}.
 
     Hypotheses: 1. All are about one map F; they are disjoint; in each the image's x is monotone in
     x, and images do not reach around the circle of an angle x. 2. Of each N_i the left edge goes to
@@ -109,6 +110,8 @@ def horseshoe(context: Context, reader: Reader) -> Horseshoe:
         tuple(integer(each, 1, count) - 1 for each in row.items(1, count))
         for row in arrows_of.items(count, count)
     )
+    if not all(map(increasing, arrows)):
+        raise arrows_of.fail("the numbers of those that follow one do not increase")
     parts = [part for each in rectangles for part in each.parts]
     METER.get().spend(4 * count * len(parts))
     return Horseshoe(

@@ -22,7 +22,7 @@ from proofs.trusted.numbers import between, floor_text
 _EIGHTHS = (64, 70, 76, 83, 91, 99, 108, 117)  # 2^(j/8), about, in 64ths
 _FIRST, _SHORTEST, _LONGEST = -32, -192, 64  # lengths of steps, 2^(n/8)
 _SHORTER, _HALF, _LESS = -4, -8, -1  # changes of n
-_FINE, _UNITS = 20, 256  # the rest of a step is about 2^-20 of the set, and so many units
+_FINE, _UNITS = 12, 256  # the rest of a step is about 2^-12 of the set, and so many units
 _MOST_STEPS, _LATEST = 10_000, 1024
 _NEWTON = 20
 _NOT_REACHED = "the section is not reached so often"
@@ -115,7 +115,7 @@ class Journey:
         bits, h = self.solutions.bits, _EIGHTHS[length % 8] * Fraction(2) ** (length // 8 - 6)
         spread = max(x.hi - x.lo for x in self.now.states(self.solutions.q))
         wanted = (spread >> _FINE) + _UNITS
-        order = 6 + 3 * max(0, bits - wanted.bit_length()) // 10
+        order = 4 + 3 * max(0, bits - wanted.bit_length()) // 10
         step = self.solutions.step(self.now, self.time, h, order)
         if step is None:
             return None, _SHORTER

@@ -173,7 +173,7 @@ class Series:
 
     def _advance(self, k: int) -> None:
         """Compute the k-th coefficients of what the rates need, then the next ones of variables."""
-        METER.get().spend(self.program.weight * (2 + (k * (4 + (self.bits >> 6)) >> 4)))
+        METER.get().spend(self.program.weight * (1 + (k * (4 + (self.bits >> 6)) >> 6)))
         for place, node in enumerate(self.program.nodes):
             if node.op not in _GIVEN:
                 self._store(place, *self._coefficient(place, node, k))

@@ -146,13 +146,6 @@ def test_cuts_are_found_near_the_paper_s_parameters(tmp_path):
 
 
 @needs_coqc
-@pytest.mark.slow
-def test_coqc_accepts_one_of_them(tmp_path, proved):
-    (asked,) = near_the_paper(tmp_path, 1, seed=7)
-    accepts(proved, tmp_path, case(asked, "x", floats=True).text)
-
-
-@needs_coqc
 @pytest.mark.long
 def test_coqc_accepts_twenty_of_them_and_refuses_what_is_false(tmp_path, proved):
     for number, asked in enumerate(near_the_paper(tmp_path, 20, seed=8)):

@@ -194,7 +194,7 @@ def test_what_a_candidate_is(condition, lines, wanted):
 )
 def test_roots_of_parameters(lines, names, root):
     """A root is a parameter of its own: at its numbers it is a flip of the map as it was given."""
-    found = [each for each in candidates("flip", names, *lines) if each.root is not None]
+    found = [each for each in candidates("flip", names, *lines) if each.roots]
     assert len(found) == 1 and found[0].found.kind == "flip"
     numbers = {name: x.subs({"root": root, "c": 2}) for name, x in found[0].values.items()}
     state = sympy.symbols(names[:-1])
@@ -206,6 +206,20 @@ def test_roots_of_parameters(lines, names, root):
     if len(state) == 1:  # Kuznetsov's coefficient of the flip
         second, third = (images[0].diff("x", k).subs(places) for k in (2, 3))
         assert (second**2 / 4 + third / 6 - numbers["critical"]).equals(0)
+
+
+@pytest.mark.slow
+def test_a_root_inside_of_a_root():
+    """x^2 is a root of x^4 - c x^2 - b: at any roots it is a fold of the map as it was given."""
+    line = "x1 = x + a + b*x + c*x^3/3 - x^5/5"
+    (found,) = candidates("fold", ("x", "a"), line)
+    assert found.found.kind == "fold" and [*found.roots] == ["root", "root2"]
+    image = sympy.sympify(line.split("=")[1].replace("^", "**"))
+    for root, root2 in (("1/2", "3/2"), ("-3", "1/7"), ("5", "-2")):
+        places = {name: x.subs({"root": root, "root2": root2}) for name, x in found.values.items()}
+        assert (image - sympy.Symbol("x")).subs(places).equals(0)
+        assert (image.diff("x") - 1).subs(places).equals(0)
+        assert (image.diff("x", 2).subs(places) / 2 - places["critical"]).equals(0)
 
 
 SIDES = [  # of the parameter there are two fixed points, a cycle, a circle: on the other side none

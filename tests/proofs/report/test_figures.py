@@ -19,7 +19,7 @@ from proofs.trusted.parameters import PAPER
 from proofs.trusted.verify import premises
 from tests.once import report
 from tests.oracles.curves import amplitude, grazing
-from tests.oracles.sources import curves as curves_of_grazing
+from tests.oracles.sources import about_curves
 from tests.proofs.trusted.paper import reference
 
 pytest.importorskip("matplotlib")
@@ -323,7 +323,7 @@ def test_curves_of_grazing_pass_where_the_oracle_says():
     figure = curves.FIGURE
     with pytest.raises(Undecided):
         figure.plot(Context())
-    made = curves_of_grazing()
+    made = about_curves()
     curve = made[0]
     drawing = figure.plot(Context(known=dict(enumerate(made))))
     lines = [line for line in drawing.axes[0].lines if line.get_gid() == PROVED]

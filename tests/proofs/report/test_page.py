@@ -11,11 +11,10 @@ from proofs.report import __main__ as command
 from proofs.report import theorem as _page
 from proofs.report.differences import facts, marked
 from proofs.report.inline import inlined, shortened
-from proofs.report.layout import enclosure, percents, sentences
+from proofs.report.layout import enclosure, enumerated, percents, sentences
 from proofs.report.ledger import ledger
 from proofs.report.theorem import sources, template, theorem
 from proofs.report.typeset import html, markdown
-from proofs.trusted.verdicts import told
 from tests.proofs.report.conftest import REPORTS
 
 VOID = {"meta", "link", "input", "br", "hr", "img", "mspace"}
@@ -161,13 +160,26 @@ def test_numbers_of_the_theorem_are_those_of_the_conclusions_that_they_render(fo
 
 @pytest.mark.slow
 def test_the_theorem_stands_alone(found):
-    """Statements in full; what it links is there; no verdict on the paper, no other page needed."""
+    """Statements in full, or by a theorem above; what it links is there; no verdict on the paper,
+    no other page needed.
+    """
     text, whole = theorem(found), (REPORTS / "ledger.md").read_text(encoding="utf-8")
     labels = {each.label: each for each in found.statements.values()}
     for tag, said in template():
         if said == "{text}":
-            assert markdown(told([labels[tag].conclusion])) in text
-    assert "moreover:" not in text and "efuted" not in text and "{" not in text
+            quoted = text[: text.index(f"[[{tag}]")].rpartition("\n\n")[2]
+            for part in found.parts(labels[tag]):
+                if isinstance(part, str):
+                    sets = [x for each in sentences(part) for x in [*enumerated(each)[1]] or [each]]
+                    assert [x for x in sets if markdown(x) not in quoted] == []
+                elif f"[[{part.label}]" in text[: text.index(f"[[{tag}]")]:
+                    assert "says of these sets holds; moreover:" in quoted
+                else:
+                    assert markdown(part.text) in quoted
+    for named in re.findall(r"(.{0,60})moreover:", text):
+        above = re.search(r"What (Theorem \d+) says of these sets holds; $", named)
+        assert text.index(f"**{above[1]}** (") < text.index(named)
+    assert "efuted" not in text and "{" not in text
     for link in re.findall(r"\]\(([^)\s]*)\)", text):
         file, _, anchor = link.partition("#")
         assert (REPORTS / file).resolve().is_file(), link
@@ -175,7 +187,7 @@ def test_the_theorem_stands_alone(found):
             assert f'<a id="{anchor}"></a>' in whole, link
         elif anchor:
             assert f"### `{anchor}`" in (REPORTS / file).resolve().read_text(encoding="utf-8")
-    assert re.findall(r"\*\*Theorem (\d+)\.\*\*", text) == [str(n) for n in range(1, 11)]
+    assert re.findall(r"\*\*Theorem (\d+)\*\* \(", text) == [str(n) for n in range(1, 11)]
 
 
 @pytest.mark.slow

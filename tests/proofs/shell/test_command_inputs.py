@@ -337,6 +337,9 @@ REFUSED = {  # arguments, and what the line says
         ),
         *((f"--map x {more}", "") for more in ("--ask orbits:0", "--box x=1", "--box y=0:1")),
         *((f"{LOGISTIC} --ask {x}", "") for x in ("branches", "branches:r=2", "folds:r=2:4")),
+        ("--map x/2 --ask impact:x=1", "asked of systems"),
+        ("--example wall --ask impact:b=1", "a value for each variable"),
+        ("--example wall --ask rest:a=1", "no 'rest'"),
         *((f"{LOGISTIC} --ask {x}:r=2:4,q=1:2", "") for x in ("branches", "flips")),
     ],
 }

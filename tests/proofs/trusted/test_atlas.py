@@ -11,6 +11,7 @@ import pytest
 from proofs.plane.head import Here, run
 from proofs.plane.store import opened
 from proofs.trusted.atlas import Region, area, check_atlas
+from proofs.trusted.certificate import SCHEMA as DOCUMENT
 from proofs.trusted.certificate import Malformed, texts
 from proofs.trusted.flights import PlasticMap
 from proofs.trusted.kernel.coverings import EntropyBound
@@ -19,9 +20,9 @@ from proofs.trusted.paper.beyond.singles import StableSingles
 from proofs.trusted.paper.branches import Branch
 from proofs.trusted.parameters import Place
 from proofs.trusted.questions import question
-from proofs.trusted.subjects import Oscillators
+from proofs.trusted.subjects import Oscillators, Systems
 from proofs.trusted.verdicts import Verdict
-from proofs.trusted.verify import Rejected
+from proofs.trusted.verify import Rejected, check
 
 F = Fraction
 REGION = Region((F("0.2115"), F("0.2127")), (F("-0.201"), F("-0.199")), "horseshoe")
@@ -257,6 +258,31 @@ def test_what_is_proved_of_another_box_is_not_of_this_one(lines):
     """The whole proof of a neighbour in the place of a cell's, and its words."""
     lines[7] |= {name: lines[6][name] for name in ("kind", "says", "certificate")}
     refused(lines, "other parameters")
+
+
+def test_the_paper_s_map_is_no_function_of_a_file_whatever_its_name():
+    """A map without fixed points, and one of the paper's oscillator, which has that name."""
+    box, sides = [[1, 2]] * 2, {"eta": "2121/10000", "nu": "-1/5", "epsilon": "1/100"}
+    witness = {
+        "function": {name: [value] * 2 for name, value in sides.items()},
+        "period": "1",
+        "turns": ["4"],
+        "box": [["557619/500000", "557649/500000"], ["-423249/1000000", "-423189/1000000"]],
+        "matrix": [["1343/5000", "123/10000"], ["299/5000", "-4997/5000"]],
+    }
+    step = {"p": {"rule": "periodic-orbit", "witness": witness}}
+    document = {"schema": DOCUMENT, "parameters": None, "functions": {}, "steps": step}
+    document["claims"] = ["p"]
+    (says,) = check(json.dumps(document)).sentences
+    moved = {
+        "variables": ["x"],
+        "parameters": {"a": ["0"] * 2, "b": ["0"] * 2},
+        "values": ["x+a+b"],
+    }
+    region = Region(*box, "orbits:1", Systems({"F": moved}, "F", ("a", "b")))
+    said = {"verdict": "VERIFIED", "kind": "PeriodicOrbit", "says": says, "certificate": document}
+    cell = {"cell": "0/", "a": ["1", "2"], "b": ["1", "2"], **said}
+    refused([json.loads(region.text), cell], "does not answer the question")
 
 
 def test_another_region_or_none(lines):

@@ -6,10 +6,11 @@ from fractions import Fraction
 import pytest
 
 from proofs.trusted import oscillator
-from proofs.trusted.certificate import Reader
+from proofs.trusted.certificate import Malformed, Reader
 from proofs.trusted.equations import arrival, clock, closing, gap, launch_with_restitution
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.covers import Covers, HSet, LocalMap
 from proofs.trusted.kernel.flight import read_gap
 from proofs.trusted.kernel.formulas import on_tape
 from proofs.trusted.kernel.head import read_head
@@ -85,3 +86,24 @@ def test_states_without_an_impact_that_is_proved(phases, gammas, change, reason)
     phases, gammas = ([str(Fraction(x)) for x in side] for side in (phases, gammas))
     with pytest.raises(Unproved, match=reason):
         differential(phases, gammas, **change)
+
+
+def related(centre, nu):
+    """A relation of an h-set to itself, under the map of one oscillator."""
+    half, zero = Fraction(1, 2), Fraction(0)
+    node = HSet((centre, zero), ((half, zero), (zero, half)), ((2, zero), (zero, 2)))
+    sides = [(x, x) for x in (Fraction("0.2121"), nu, Fraction("0.01"))]
+    return Covers(LocalMap(oscillator.flight(sides), 1, node, node, (4,)), 1)
+
+
+def graph(*relations):
+    known = {f"c{k}": each for k, each in enumerate(relations)}
+    return find_rule("graph")(Context(known=known), Reader({"covers": list(known)}))
+
+
+def test_relations_say_about_which_oscillator_they_are():
+    one, two = related(Fraction(0), Fraction("-0.2")), related(Fraction(3), Fraction("-0.2"))
+    for conclusion in (one, graph(one, two)):
+        assert "eta = 0.2121, nu = -0.2, epsilon = 0.01: N" in conclusion.sentence
+    with pytest.raises(Malformed, match="of the same name"):
+        graph(one, related(Fraction(3), Fraction("-0.3")))

@@ -10,7 +10,7 @@ from proofs.trusted.equations import AT_LAUNCH, clock, gap, launch, launch_accel
 from proofs.trusted.files import render
 from proofs.trusted.kernel.values import Equal, Series
 from tests.proofs.trusted.kernel.lines import Lines
-from tests.proofs.trusted.kernel.systems import BALL, RATTLE, RATTLE_BACK
+from tests.proofs.trusted.kernel.systems import BALL, DAMPED, FAR, RATTLE, RATTLE_BACK, RESTING
 
 LOGISTIC = (["x"], ["5*x*(1 - x)"])
 CUBIC = "x**3 - 3*x + 1"
@@ -270,8 +270,24 @@ def rectangles():
     return file
 
 
+def outcomes():
+    """No further impact from a wall out of reach; a ball at rest; a graze of a wall."""
+    file = SymbolicLemmas({"F": FAR, "R": RESTING, "P": BALL, "G": DAMPED})
+    box = [["0", "1/50"], ["-1/10", "-9/100"]]
+    file.add("no-impact", {"function": "F", "box": box, "tree": None, "time": "32"})
+    file.add("pressed", {"function": "R", "box": [["-6/5", "1/2"]], "tree": None})
+    file.add(
+        "pressed",
+        {"function": "P", "box": [["0", "1"], ["1/2", "1/2"]], "tree": ["1", "1/2", None, None]},
+    )
+    box = [["0", "0"], ["-208180717/100000000", "-41636143/20000000"]]
+    file.add("graze", {"function": "G", "box": box, "axis": "2", "time": ["2519/1000", "1261/500"]})
+    return file
+
+
 EXAMPLES = {
     "lines": Lines,
+    "outcomes": outcomes,
     "rectangles": rectangles,
     "ball": ball,
     "rattle": rattle,

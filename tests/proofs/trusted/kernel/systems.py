@@ -92,6 +92,21 @@ RATTLE_BACK = {  # and from the upper one to the lower
     ],
     "gaps": RATTLE["gaps"][::-1],
 }
+FAR = {**DAMPED, "parameters": {**DAMPED["parameters"], "s": ["11/10", "11/10"]}}
+RESTING = {  # the ball, in contact: its velocity is the table's
+    **BALL,
+    "variables": ["phi"],
+    "parameters": {"g": ["1/2", "1/2"]},
+    "motion": [
+        {
+            "name": "y",
+            "form": "sin(phi) + cos(phi)*t - g*t**2/2",
+            "equation": "-g",
+            "start": ["sin(phi)", "cos(phi)"],
+        }
+    ],
+    "values": ["phi + t"],
+}
 _NORMAL = "((u*b*sin(x) + D(y, t) - c*cos(phi + t))/(1 + b**2*sin(x)**2))"
 BILLIARD = {  # a ball over a wavy floor that vibrates; g is any number of a range
     "variables": ["phi", "s", "u", "w"],

@@ -235,7 +235,7 @@ TRUTHS = [
 ]
 NOT_0 = "a gap is not proved > 0 at launch"
 LEAVES, GRAZE = "right after launch", "a graze is not excluded at the time 1,"
-OTHER = "another gap is not proved > 0 until the impact"
+OTHER = "a gap is not proved > 0 up to the time"
 UNKNOWNS = "unknowns of lower order alone"
 SOLVES, STARTS = "not proved to solve this equation", "not proved to start so"
 PERIOD = "not proved to respect the period"

@@ -131,8 +131,18 @@ def test_arrows_ask_for_less():
     assert "follow the arrows" not in found.sentence
 
 
-@pytest.mark.parametrize("arrows", [[["1"]], [["1", "3"], ["1"]], [[], ["1"]], [["0"], ["1"]]])
-def test_arrows_to_nowhere(arrows):
+@pytest.mark.parametrize(
+    "arrows",
+    [
+        [["1"]],
+        [["1", "3"], ["1"]],
+        [[], ["1"]],
+        [["0"], ["1"]],
+        [["1"], ["2", "2"]],  # more paths than orbits
+        [["2", "1"], ["1", "2"]],
+    ],
+)
+def test_arrows_to_nowhere_or_twice(arrows):
     with pytest.raises(Malformed):
         horseshoe(*pair(), arrows)
 

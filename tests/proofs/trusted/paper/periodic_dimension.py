@@ -58,11 +58,6 @@ def every(length):
     return map("".join, product("01", repeat=length))
 
 
-def without_000(length):
-    """All words of a length that never hold 000, over and over."""
-    return [word for word in every(length) if "000" not in word * 4]
-
-
 def blocks(length):
     """The words of so many blocks 1, 01, 001: the first-return form of `without_000`."""
     return map("".join, product(("1", "01", "001"), repeat=length))

@@ -355,13 +355,6 @@ def test_motions_that_come_back_for_all_oscillators_of_a_box():
         assert oracle(one, random.Random(4)) == []
 
 
-@pytest.mark.parametrize("place", MADE)
-def test_a_box_a_little_larger_is_another_one(place):
-    made, _, _ = at(place)
-    made["parameters"]["eta"] = [str(place.eta[0] - F(1, 100)), str(place.eta[1] + F(1, 100))]
-    rejected(made)
-
-
 def test_launches_that_land_only_at_some_oscillators():
     made, steps, _ = at(LATE)
     (lands,) = [each["witness"] for each in steps if each["rule"] == "lands"]
@@ -374,26 +367,6 @@ def test_launches_that_land_only_at_some_oscillators():
     made, _, last = at(LATE)
     last["landing"] = last["separation"]
     rejected(made, "names no earlier step that is a Lands", Malformed)
-
-
-def test_launches_after_the_arc_are_all_followed():
-    made, steps, last = at(BACK)
-    ends = last["beyond"]["domain"]
-    last["beyond"] = last["cells"][0]
-    rejected(made)
-    for name in ("cells", "beyond", "landing"):
-        made, _, last = at(BACK)
-        del last[name]
-        rejected(made, "missing field", Malformed)
-    made, steps, last = at(BACK)
-    last["cells"] = []
-    rejected(made)
-    made, steps, last = at(BACK)
-    middle = str((F(ends[0]) + F(ends[1])) / 2)
-    for each in steps:
-        if each["rule"] == "slope-range" and each["witness"]["points"][0]["phase"] == ends[0]:
-            each["witness"]["points"][0]["phase"] = last["beyond"]["domain"][0] = middle
-    rejected(made)
 
 
 def test_a_cell_that_passes_phase_0_is_no_set_in_order():

@@ -9,13 +9,14 @@ import random
 from collections import Counter
 from dataclasses import replace
 from fractions import Fraction
-from functools import cache
+from functools import cache, partial
+from itertools import permutations
 
 import pytest
 
 from proofs.motion.system import System
 from proofs.motion.witness import HORIZON
-from proofs.plane.settling import settles
+from proofs.plane.settling import settles, sticks
 from proofs.search import s34_circle, s34_whole
 from proofs.search.curves import Curves, seen_curves
 from proofs.search.s34_absorbing import Partition
@@ -29,12 +30,18 @@ from proofs.trusted.verify import derive, premises
 from tests.effort import EFFORT
 from tests.once import REPORTS, once, report
 from tests.oracles.judge import oracle
-from tests.proofs.trusted.edits import edited
-from tests.proofs.trusted.mutations import FORM, field, inside
+from tests.proofs.trusted.edits import at, edited, put, walk
+from tests.proofs.trusted.mutations import field, inside, is_number
 from tests.proofs.trusted.renewing import REFUSED
 
 TEN_PIECES = replace(PAPER, eta=Fraction("0.21"))  # of the circle: few, so that all is soon derived
-ALL_STICK = Place(*(tuple(map(Fraction, side)) for side in (("0.3", "0.302"), ("0.19", "0.192"))))
+ALL_STICK, AFTER_THE_ARC = (
+    Place(*(tuple(map(Fraction, side)) for side in sides))
+    for sides in (
+        (("0.3", "0.302"), ("0.19", "0.192")),
+        (("0.2378", "0.2382"), ("-0.2059", "-0.2055")),
+    )
+)
 WORK = 3_000_000
 
 
@@ -67,6 +74,12 @@ def settling():
     return json.loads(settles(ALL_STICK).certificate())["steps"]
 
 
+@once
+def coming_back():
+    """The steps of a motion that comes back to just after the arc, for all oscillators of a box."""
+    return json.loads(sticks(AFTER_THE_ARC).certificate())["steps"]
+
+
 @cache
 def derived(parameters, make):
     """What such steps prove."""
@@ -92,7 +105,7 @@ SMALLER |= dict.fromkeys(
 
 
 SMALLER |= {"grazing-curve": (None, grazing_curve), "grazing-meets": (None, grazing_curve)}
-SMALLER["settles"] = ALL_STICK, settling
+SMALLER |= {"settles": (ALL_STICK, settling), "sticking-motion": (AFTER_THE_ARC, coming_back)}
 
 
 def source(rule):
@@ -106,6 +119,22 @@ def source(rule):
     return json.loads(text)["steps"], context, name
 
 
+def sharper(witness):
+    """Numbers at bounds, like others, and just beside those before and behind: kind, path, edit."""
+    little = Fraction(1, 10**9)
+    for path, value in walk(witness):
+        if is_number(value):
+            yield from ((f"put to {bound}", path, put(path, bound)) for bound in "01" if path)
+        elif isinstance(value, list) and all(map(is_number, value)):
+            for i, j in (pair for k in range(1, len(value)) for pair in ((k, k - 1), (k - 1, k))):
+                near = Fraction(value[j]) + (little if i > j else -little)
+                yield "put beside", (*path, i), put((*path, i), str(near))
+        elif isinstance(value, dict):
+            numbers = [key for key in value if is_number(value[key])]
+            for one, other in permutations(numbers, 2):
+                yield "put alike", (*path, one), put((*path, one), value[other])
+
+
 def edits(steps, name):
     """A file with the witness of a step, and its edits, by what is done to which field."""
     base = ("steps", name, "witness")
@@ -115,7 +144,14 @@ def edits(steps, name):
     for kind, path, edit in inside(document):
         if path[:3] == base:
             kinds.setdefault(f"{field(path[3:])} {kind}", []).append((path[3:], edit))
+    for kind, path, edit in sharper(around[name]["witness"]):
+        whole = partial(_within, base, edit)
+        kinds.setdefault(f"{field(path)} {kind}", []).append((path, whole))
     return document, kinds
+
+
+def _within(place, edit, document):
+    edit(at(document, place))
 
 
 def again(context, name, rule, witness):
@@ -128,6 +164,68 @@ def again(context, name, rule, witness):
 
 
 OWN = [rule for rule, place in RULES.items() if not place.startswith("kernel.")]
+
+
+ACCEPTED = {  # what may be done to which field, in some places; all else is refused
+    "first-impact": "phases tighter narrowed looser aside collapsed nudged put_beside put_to_1; "
+    "times dropped nudged moved put_beside put_to_1",
+    "point": "time tighter looser widened nudged put_beside",
+    "slope-range": "phase nudged; time looser nudged moved",
+    "avoids": "flights dropped; target tighter narrowed nudged put_beside",
+    "moran-root": "ratios turned; root tighter looser widened",
+    "itinerary": "slopes dropped swapped doubled_in_place added turned another; phase moved "
+    "put_to_0 put_to_1",
+    "dimension": "hull nudged; words turned put_to_0 put_to_1; rho nudged moved; arcs moved "
+    "put_alike; paths dropped nudged put_to_0; radii tighter narrowed looser aside collapsed "
+    "turned nudged moved put_beside; nodes moved put_alike; exponent nudged; growth nudged "
+    "put_to_1; test dropped swapped doubled_in_place added nudged moved put_beside put_to_0 "
+    "put_to_1; bits moved",
+    "horseshoe-union": "parts dropped swapped doubled_in_place added turned",
+    "golden-mean": "words swapped added turned",
+    "separation": "phase looser nudged; times dropped nudged moved put_beside put_to_1; time "
+    "looser nudged moved",
+    "lands": "cuts dropped nudged moved put_beside put_to_0",
+    "never-impacts": "phases tighter narrowed nudged put_beside",
+    "absorption": "never other_type dropped emptied; lands swapped turned; cells dropped swapped "
+    "emptied turned; cuts nudged moved; times nudged moved; after nudged moved; impacts moved "
+    "put_to_1",
+    "staying-set": "cells swapped turned; gaps added",
+    "branch": "cuts nudged moved put_beside put_to_1; ends nudged moved put_beside",
+    "covering-graph": "images swapped added turned; time tighter narrowed nudged moved; states "
+    "nudged; weights nudged moved put_to_1; growth nudged moved put_to_1",
+    "grazing": "phases tighter narrowed looser nudged; times nudged moved put_beside; landing "
+    "tighter looser widened nudged moved",
+    "pieces": "branches swapped turned; after nudged moved; grazings swapped turned",
+    "itinerary-graph": "images swapped added turned; time tighter looser widened nudged moved "
+    "put_beside; states swapped doubled_in_place aside collapsed; weights swapped doubled_in_place "
+    "nudged moved put_beside; growth nudged moved",
+    "expansion": "cuts nudged; times nudged; scales doubled_in_place nudged moved put_beside "
+    "put_to_1; rate nudged",
+    "cycles": "orbits dropped swapped turned; time tighter looser widened nudged moved put_beside; "
+    "radius nudged moved; images dropped swapped doubled_in_place added turned",
+    "superstable-motion": "box tighter; cells added; bounces tighter looser widened nudged "
+    "put_beside; ratio nudged; rest nudged",
+    "passes-separation": "bounces tighter looser widened",
+    "single-solution": "phase tighter looser widened; n put_to_1",
+    "single-below-windows": "low nudged; ends tighter looser widened",
+    "single-eta-windows": "low nudged",
+    "single-nu-windows": "above tighter looser widened; below tighter looser widened; early "
+    "doubled_in_place nudged moved put_beside",
+    "grazing-curve": "box tighter looser widened nudged; slope nudged put_to_0; matrix tighter "
+    "narrowed looser nudged moved put_beside put_to_0; times dropped swapped doubled_in_place "
+    "nudged moved put_beside put_to_1; amplitudes tighter looser widened nudged moved put_beside "
+    "put_to_0 put_to_1; epsilon put_to_0",
+    "grazing-meets": "box tighter looser widened nudged put_beside; matrix doubled_in_place nudged "
+    "moved put_to_0; amplitude tighter looser widened nudged moved put_beside put_to_0 put_to_1",
+    "stable-singles": "most moved; cuts moved put_alike put_to_1",
+}
+
+
+def may_be_accepted(rule, kind):
+    """Whether such an edit leaves a witness that still proves something true."""
+    field_of, _, change = kind.partition(" ")
+    fields = (each.split() for each in ACCEPTED.get(rule, "").split(";"))
+    return any(x[0] == field_of and change.replace(" ", "_") in x[1:] for x in fields if x)
 
 
 def verify(rule, most):
@@ -146,7 +244,7 @@ def verify(rule, most):
                 continue
             counts["accepted"] += 1
             told = f"{kind} at {path}"
-            assert kind.partition(" ")[2] not in FORM, told
+            assert may_be_accepted(rule, kind), told
             if found.sentence != own.sentence:
                 assert not list(oracle(found, random.Random(1), of)), told
     assert counts["refused"] > counts["accepted"]
@@ -154,7 +252,7 @@ def verify(rule, most):
 
 @pytest.mark.parametrize("rule", OWN)
 def test_an_edited_witness_is_refused_or_true(rule):
-    verify(rule, 1 if EFFORT.quick else 3)
+    verify(rule, 1 if EFFORT.quick else 2)
 
 
 @pytest.mark.long

@@ -173,6 +173,11 @@ def test_pieces_between_other_grazes_are_not_told_of(known, roots):
 
 LIES = [  # that edits of all fields do not tell, in test_edits
     ("grazing", lambda w: w.update(landing=None), "within q turns"),
+    (
+        "grazing",
+        lambda w: w["times"].__setitem__(0, add(F(-1, 10**9))(w["times"][1])),
+        "to the gra",
+    ),
     ("grazing", lambda w: w["times"].__setitem__(2, add(F(1, 10**9))(w["times"][1])), "to rise"),
     ("grazing", lambda w: w["times"].__setitem__(3, add(8)(w["times"][3])), "to rise"),
     ("itinerary-graph", lambda w: w.update(growth="1/2"), "growth >= 1"),

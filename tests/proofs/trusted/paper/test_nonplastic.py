@@ -149,13 +149,5 @@ def test_verdicts_and_what_is_said(of, verdicts, texts):
 # -- what must be rejected -------------------------------------------------------------------------
 
 
-def entry(certificate, claim):
-    return next(one for one in certificate["claims"] if one["id"] == claim)
-
-
 def steps(certificate, rule):
     return [step["witness"] for step in certificate["steps"].values() if step["rule"] == rule]
-
-
-def without(index):
-    return lambda names: [name for k, name in enumerate(names) if k != index]

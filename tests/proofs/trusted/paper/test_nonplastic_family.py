@@ -10,13 +10,12 @@ import pytest
 
 from proofs.search import s33_family
 from proofs.shell.groups import produce
-from proofs.trusted.certificate import Malformed
 from proofs.trusted.files import render
 from proofs.trusted.kernel.horseshoe import Horseshoe
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s33_restitution.horseshoes import shoes
 from proofs.trusted.parameters import PAPER
-from proofs.trusted.verify import Rejected, check
+from proofs.trusted.verify import check
 from tests.oracles.sources import conclusions
 
 FAR = Fraction("0.06")
@@ -114,11 +113,3 @@ def test_beyond_what_is_proved_nothing_is_decided(known):
     for missing in (each for each in known if isinstance(each, Horseshoe)):
         without = [each for each in known if each != missing]
         assert row.decide(replace(PAPER, epsilon=Fraction("0.05")), without).missing
-
-
-def forged(family, change):
-    edited = json.loads(json.dumps(family))
-    change(edited)
-    assert edited != family
-    with pytest.raises((Rejected, Malformed)):
-        check(render(edited))

@@ -249,9 +249,9 @@ FALLS = ((pair_of(-6, -5), STEEP[0][1]), STEEP[1])
 OTHER = replace(EXACT, eta=pair_of("0.2", "0.2"))
 
 
-def golden(first=V1, second=V2, part=PART, words=WORDS):
+def golden(first=V1, second=V2, part=PART, words=WORDS, names=("a", "b")):
     known = {"a": first, "b": second, "n": part} | {f"w{n}": x for n, x in enumerate(words)}
-    wider = {"rectangles": ["a", "b"], "words": [name for name in known if name[0] == "w"]}
+    wider = {"rectangles": [*names], "words": [name for name in known if name[0] == "w"]}
     arrows, cone = [["1", "2"], ["1"]], ["0", "2"]
     witness = {"rectangles": ["a", "n"], "arrows": arrows, "cone": cone, "wider": wider}
     return golden_mean(prove("horseshoe", known, **witness))
@@ -293,6 +293,12 @@ def test_golden_mean():
 def test_golden_mean_needs_all(change):
     with pytest.raises(Unproved):
         golden(**change)
+
+
+@pytest.mark.parametrize("names", ["a", "aba"])
+def test_golden_mean_needs_two_rectangles(names):
+    with pytest.raises(Unproved, match=r"one for each|overlap"):
+        golden(names=names)
 
 
 def test_golden_mean_needs_restitution():

@@ -9,7 +9,6 @@ import math
 import random
 from fractions import Fraction
 
-import numpy as np
 import pytest
 from mpmath import mp, mpf
 
@@ -156,24 +155,6 @@ def slope_18(eta, nu, n, phi):
     s, c, h = mp.sin(2 * mp.pi * n * eta), mp.cos(2 * mp.pi * n * eta), 1 + nu * mp.sin(phi)
     top = nu / eta * mp.sin(phi) * s - eta * h * s
     return top / (-eta * h * s + nu * mp.cos(phi) * c - nu * mp.cos(phi))
-
-
-# -- a table below: lemmas 6 to 8 ------------------------------------------------------------------
-
-
-def below(n, eta, nu):
-    """D(t) for the solution with slope < 1, and its p: as functions of floats, typed again."""
-    tangent, square = math.tan(math.pi * n * eta), nu * nu
-    root = square - (1 - square) * (eta * tangent) ** 2
-    if root < 0:
-        return None, None
-    p = (math.sqrt(root) - square) / (1 - square)
-
-    def inside(t):
-        mass = np.cos(eta * t) + tangent * np.sin(eta * t)
-        return mass - 1 + p * (1 - np.cos(t)) - eta * tangent * np.sin(t)
-
-    return inside, p
 
 
 # -- the command ---------------------------------------------------------------------------------

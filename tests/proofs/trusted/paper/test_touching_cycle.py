@@ -8,15 +8,12 @@ from fractions import Fraction as F
 
 import flint
 import pytest
-from mpmath import mpf
 
 from proofs.trusted.paper.s34_circle.cycles import Cycles, touching
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts
 from tests.oracles.adapter import view
 from tests.oracles.laps import graze
 from tests.proofs.trusted.paper.steps import known_of
-
-ETA, NU = mpf("0.2121"), mpf("-0.2")
 
 
 @pytest.fixture(scope="module")
