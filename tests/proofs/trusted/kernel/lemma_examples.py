@@ -286,8 +286,8 @@ def outcomes():
 
 
 EXAMPLES = {
-    "lines": Lines,
     "outcomes": outcomes,
+    "lines": Lines,
     "rectangles": rectangles,
     "ball": ball,
     "rattle": rattle,
