@@ -112,6 +112,7 @@ LIES = [
 ]
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(("name", "path", "value", "reason"), LIES)
 def test_lies_are_refused(name, path, value, reason):
     steps = copy.deepcopy(STEPS)

@@ -416,6 +416,22 @@ def test_full_orbits_that_never_repeat_a_rectangle():
     assert horseshoe(*pair()).wider == ()
 
 
+def test_an_edge_goes_beyond_the_wider_rectangle():
+    """The part of the second one reaches beyond that of the first, and not beyond all of it."""
+    proof, names = pair()
+    known, map_ = proof.context.known, proof.context.functions["F"]
+    boxes = tuple(known[each].box for each in names)
+    for k, ends in enumerate((("1", "9/8"), ("7/4", "29/16"))):
+        name = proof.rectangle(ends, name=f"part-{k}", function="FG"[k])[0]
+        known[name] = replace(known[name], function=map_)
+        known[f"barred-{k}"] = BarredWord(map_, boxes, (k, 1), Fraction(1, 8))
+    wider = {"rectangles": names, "words": ["barred-0", "barred-1"]}
+    witness = {"rectangles": ["part-0", "part-1"], "arrows": [["1"], ["1"]], "cone": ["0", "2"]}
+    assert proof("horseshoe", **witness)[1].wider == ()
+    with pytest.raises(Unproved, match="beyond the wider"):
+        proof("horseshoe", **witness, wider=wider)
+
+
 @pytest.mark.parametrize(
     ("change", "reason"),
     [
