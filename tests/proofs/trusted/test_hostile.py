@@ -92,6 +92,7 @@ sys.exit(status)
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="needs limits of memory")
 @pytest.mark.parametrize("what", ["time", "memory"])
 def test_the_system_ends_what_the_meter_does_not_see(what):
