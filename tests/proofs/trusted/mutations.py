@@ -34,7 +34,9 @@ HARMLESS = {  # fields; what may be done to them, and why
     ),
     "phases": ("nudged looser", "the same times prove the first impact of a few phases more"),
     "root": ("nudged looser tighter", "another bracket of the root"),
-    "bounds": ("nudged", "the sentence is rounded"),
+    **dict.fromkeys(("bounds", "states", "weights"), (ANY, "others, proved anew")),
+    "points": ("nudged dropped", "other points of the same pieces"),
+    "slopes": ("added", "a step may be named twice"),
     "cuts": (ANY, "another subdivision: every part is proved anew"),
     "cone": (ANY, "other cones, proved again"),
     "bits": (ANY, "as tight numbers as are asked for"),
@@ -62,6 +64,7 @@ EXCUSED = {  # what breaks the form elsewhere
     "expressions unknown field": "another unknown",
     "points other type": "an arc without points says less",
     "periods missing": "a map of the line, not of the circle",
+    "periods other type": "a map of the line, not of the circle",
 }
 
 
@@ -241,7 +244,9 @@ def inside(document: Document) -> Found:
         if isinstance(value, dict):
             yield "unknown field", path, put((*path, "extra"), "1")
             free = path in (("functions",), ("steps",)) or path[-1] in ("quantities", "box")
-            yield from (("missing", path, drop((*path, key))) for key in value if not free)
+            optional = ("periods", "parameters") if path[:1] == ("functions",) else ()
+            needed = () if free else (key for key in value if key not in optional)
+            yield from (("missing", path, drop((*path, key))) for key in needed)
         for other in (None, [], {}, True, [value], {"value": value}):
             if other != value:
                 yield "other type", path, put(path, other)
