@@ -72,9 +72,10 @@ class Entropy(Conclusion):
         """Return the statement, with the bound as decimals."""
         steps = self.length * self.graph.covers[0].local.power
         low, high = (end / steps for end in log(Fraction(self.growth), _LOG_BITS).range)
+        share = f"/{steps}" if steps > 1 else ""
         return (
             f"{self.graph.described}; the topological entropy of {self.graph.map_name} on a "
-            f"compact invariant set is at least log({self.growth})/{steps}, which lies in "
+            f"compact invariant set is at least log({self.growth}){share}, which lies in "
             f"[{floor_text(low, 12)}, {ceil_text(high, 12)}]."
         )
 

@@ -64,6 +64,7 @@ def complains(result, status=2):
     )
 
 
+@pytest.mark.slow
 def test_an_atlas_needs_no_database():
     result = run(ROOT / "reports" / "atlas" / "across-resonance.jsonl", code=ALONE)
     assert result.stderr == "" and result.returncode == 1  # some cells are undecided
