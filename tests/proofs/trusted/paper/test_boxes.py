@@ -367,7 +367,7 @@ def test_launches_that_land_only_at_some_oscillators():
     rejected(made, "end where the mass sticks|where the mass sticks")
     made, _, last = at(LATE)
     last["landing"] = last["separation"]
-    rejected(made, "names no earlier step that is a Lands", Malformed)
+    rejected(made, "names no step about where the last impact is", Malformed)
 
 
 def test_a_cell_that_passes_phase_0_is_no_set_in_order():
