@@ -143,25 +143,17 @@ def test_no_horseshoe_where_all_comes_to_rest():
     assert (row.verdict, row.kind) == ("REFUTED", "AtRest")
 
 
-def test_every_executor_gives_the_same_rows():
+@pytest.mark.parametrize("kind", ["here", pytest.param("dask:", marks=pytest.mark.slow)])
+def test_every_executor_gives_the_same_rows(kind):
+    if kind == "dask:":
+        pytest.importorskip("distributed")
     todo = [("0/00", ""), ("0/31", "")]
     here = decide(REGION, 2, todo)
-    with executor(2, "here") as (pool, count):
+    with executor(2, kind) as (pool, count):
         there = pool.submit(decide, REGION, 2, todo).result()
     assert count == 2 and isinstance(here[0].certificate, bytes)
     assert [*map(timeless, there)] == [*map(timeless, here)]
     assert Here().submit(math.sqrt, 4).result() == 2
-
-
-@pytest.mark.slow
-def test_a_dask_cluster_of_two_processes():
-    pytest.importorskip("distributed")
-    todo = [("0/00", ""), ("0/31", "")]
-    with executor(2, "dask:") as (pool, count):
-        there = pool.submit(decide, REGION, 2, todo).result()
-    assert count == 2
-    here = decide(REGION, 2, todo)
-    assert [*map(timeless, there)] == [*map(timeless, here)]
 
 
 def test_four_quarters_are_one_part_of_the_picture():
