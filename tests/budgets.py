@@ -25,12 +25,12 @@ BUDGETS = {
     "proofs/shell": 1_760,
     "proofs/benchmark": 1_880,
     "proofs/stress": 1_350,
-    "tests": 46_700,
-    "words of the docs": 12_450,  # of those that are written by hand, the README with them
+    "tests": 46_600,
+    "words of the docs": 12_050,  # of those that are written by hand, the README with them
     "rules outside the kernel": 26,
     "loose modules": 9,  # of the package proofs
     "tracked files": 1_050,
-    "headline": 8_670,  # lines of the files that run to check reports/horseshoe.json
+    "headline": 8_680,  # lines of the files that run to check reports/horseshoe.json
     "way of H2": 7_400,  # lines of the files that run to prove H2 and to check it
     "way of H2, files": 50,
 }
