@@ -24,16 +24,8 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 from proofs.shell.backstop import Overrun, limited
 from proofs.shell.entry import workers
 from proofs.shell.screen import Arguments, fitted, say
-from proofs.trusted.certificate import (
-    LEDGER,
-    MANIFEST,
-    MAX_BYTES,
-    Malformed,
-    decoded,
-    digest,
-    opened,
-    schema_of,
-)
+from proofs.trusted.certificate import LEDGER, MANIFEST, MAX_BYTES, Malformed
+from proofs.trusted.files import decoded, digest, opened, schema_of
 from proofs.trusted.kernel.meter import DEFAULT, METER, Exhausted, metered
 from proofs.trusted.manifest import Listed, check_ledger, check_manifest
 from proofs.trusted.numbers import ceil_text

@@ -33,14 +33,14 @@ from proofs.search.s33_steps import ReboundProver
 from proofs.search.steps import Prover
 from proofs.shell import groups
 from proofs.theorem import Theorem
-from proofs.trusted.certificate import render
+from proofs.trusted.files import render
 from proofs.trusted.flights import LATEST
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.horseshoe import Horseshoe
+from proofs.trusted.kernel.laps import SlopeRange
 from proofs.trusted.numbers import TURN, Range, show, show_range
 from proofs.trusted.paper.s33_restitution.horseshoes import restituting
 from proofs.trusted.parameters import Parameters, Place
-from proofs.trusted.slopes import SlopeRange
 
 _SYMBOLS = {
     "dwell": r"t_s",

@@ -35,7 +35,7 @@ from proofs.shell.answers import Answer, add_answer, answering, bounds, give, li
 from proofs.shell.cli import Parser, number, progress
 from proofs.shell.files import check_folder, refusing, writing
 from proofs.shell.screen import say
-from proofs.trusted.certificate import render
+from proofs.trusted.files import render
 from proofs.trusted.kernel.meter import Exhausted
 from proofs.trusted.verify import Rejected, check
 

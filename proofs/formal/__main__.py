@@ -29,7 +29,8 @@ from proofs.shell.answers import Answer, machine_text
 from proofs.shell.cli import Parser, progress, share, whole
 from proofs.shell.files import check_folder, check_targets, refusing, write_target, writing
 from proofs.shell.screen import say
-from proofs.trusted.certificate import Malformed, read
+from proofs.trusted.certificate import Malformed
+from proofs.trusted.files import read
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.meter import Exhausted
 from proofs.trusted.verify import Rejected, check

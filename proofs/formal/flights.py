@@ -16,8 +16,8 @@ from proofs.formal import flight_text
 from proofs.formal.graphs import pairs
 from proofs.formal.hints import SLACK, Branch, Hints, NoHint, steps
 from proofs.formal.written import Writer, rational
+from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Range, show, show_range
-from proofs.trusted.paper.staying import StayingSet
 
 BITS = 56  # of the enclosures
 _PARTS = 2**28  # of what is asked for, in a unit

@@ -8,11 +8,12 @@ from proofs.formal.written import NoTheorem
 from proofs.search.repair import places, rounded_slopes
 from proofs.trusted.certificate import FIELDS, Malformed, parse
 from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.laps import SlopeRange
+from proofs.trusted.kernel.moran import MoranRoot
+from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Range, hull
-from proofs.trusted.paper.s32_sets.moran import MoranRoot
-from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.parameters import Parameters
-from proofs.trusted.slopes import Impact, SlopeRange
+from proofs.trusted.slopes import Impact
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Report, check
 

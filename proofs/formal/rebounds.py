@@ -26,14 +26,11 @@ from proofs.trusted.equations import (
     return_map_derivative,
 )
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.conclusion import place_of
 from proofs.trusted.kernel.horseshoe import Horseshoe
 from proofs.trusted.kernel.rectangles import Rectangle
 from proofs.trusted.numbers import Range, show
-from proofs.trusted.paper.s33_restitution.horseshoes import (
-    RectangleHorseshoe,
-    place_of,
-    restituting,
-)
+from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe, restituting
 from proofs.trusted.paper.s33_restitution.rectangles import Strips
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verify import Report

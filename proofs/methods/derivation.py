@@ -7,7 +7,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
-from proofs.trusted.certificate import SCHEMA, Reader, render, used_steps
+from proofs.trusted.certificate import SCHEMA, Reader, used_steps
+from proofs.trusted.files import render
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.maps import Map, read_map

@@ -14,8 +14,9 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from intervals import Undecided
-from proofs.trusted.kernel.arithmetic import Enclosure, exp, log_of, pi, rational
+from proofs.trusted.kernel.arithmetic import Enclosure, pi, rational
 from proofs.trusted.kernel.complexes import BITS, Ellipse
+from proofs.trusted.kernel.elementary import exp, log_of
 from proofs.trusted.kernel.transfer import Branches, Collocation, Series, Trial
 
 if TYPE_CHECKING:

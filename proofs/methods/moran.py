@@ -5,7 +5,8 @@ from __future__ import annotations
 from fractions import Fraction
 
 from intervals.errors import Undecided
-from proofs.trusted.kernel.arithmetic import Enclosure, exp, log, rational
+from proofs.trusted.kernel.arithmetic import Enclosure, rational
+from proofs.trusted.kernel.elementary import exp, log
 
 Range = tuple[Fraction, Fraction]
 

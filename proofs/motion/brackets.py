@@ -8,10 +8,9 @@ from fractions import Fraction
 
 from proofs.motion.digits import around
 from proofs.motion.witness import BLIND, FLOATS, MOST_BITS, FlightBox
-from proofs.trusted.flights import COVER_BITS
 from proofs.trusted.kernel.arithmetic import Enclosure
 from proofs.trusted.kernel.gaps import Gap
-from proofs.trusted.numbers import Range
+from proofs.trusted.numbers import COVER_BITS, Range
 
 _ROOM = 40  # bits of precision beyond those of a bracket
 _STEPS, _FLOAT_BITS = 200, 40  # of Newton's method, and what floats are good for

@@ -13,9 +13,9 @@ from fractions import Fraction
 
 from intervals import Undecided
 from proofs.trusted.equations import clock, gap, launch, launch_acceleration
-from proofs.trusted.flights import COVER_BITS, Motion, lifted
+from proofs.trusted.flights import Motion, lifted
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
-from proofs.trusted.numbers import Range
+from proofs.trusted.numbers import COVER_BITS, Range
 from proofs.trusted.paper.s34_circle.bounces import State, bounce, kicked, push
 from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.paper.s34_circle.persistence import Box, Cell

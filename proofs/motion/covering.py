@@ -23,8 +23,7 @@ from proofs.motion.witness import (
     name_of,
     up_to,
 )
-from proofs.trusted.flights import COVER_BITS
-from proofs.trusted.numbers import Range
+from proofs.trusted.numbers import COVER_BITS, Range
 
 _MOST_HALVINGS = 128  # of a time step: thinner sets of phases are as good as one phase
 _AGAIN = 16  # of the finest steps to a window: they may be longer for some of the launches

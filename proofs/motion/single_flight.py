@@ -7,9 +7,9 @@ from fractions import Fraction
 
 from intervals import Undecided
 from proofs.motion.witness import first_step
-from proofs.trusted.flights import COVER_BITS, whole_turns
+from proofs.trusted.flights import whole_turns
 from proofs.trusted.kernel.gaps import Gap, falls, stays_up
-from proofs.trusted.numbers import Range
+from proofs.trusted.numbers import COVER_BITS, Range
 
 _LONGEST = Fraction(1, 4)
 _SHORTEST = Fraction(1, 1000)

@@ -21,10 +21,10 @@ from proofs.trusted.equations import (
     launch,
     launch_acceleration,
 )
-from proofs.trusted.flights import COVER_BITS, FirstImpact, Motion, bits_for_pieces
+from proofs.trusted.flights import FirstImpact, Motion, bits_for_pieces
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.gaps import Gap, falls, first_windows, stays_up
-from proofs.trusted.numbers import Range
+from proofs.trusted.numbers import COVER_BITS, Range
 from proofs.trusted.parameters import Place
 
 HORIZON = Fraction(1000)

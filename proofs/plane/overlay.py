@@ -14,7 +14,8 @@ from proofs.report.figures.figure import all_of
 from proofs.search.curves import Curves, Seen, seen_curves
 from proofs.search.evidence import FAILED
 from proofs.trusted.atlas import Region
-from proofs.trusted.certificate import SCHEMA, render
+from proofs.trusted.certificate import SCHEMA
+from proofs.trusted.files import render
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.paper.beyond.grazing import GrazingCurve, nu_squared, ratio
 from proofs.trusted.paper.beyond.meetings import Meeting

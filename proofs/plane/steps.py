@@ -9,7 +9,8 @@ from typing import Any
 
 from intervals import Undecided
 from proofs.plane.flights import Flights, times_for
-from proofs.trusted.certificate import SCHEMA, box_to_json, render, texts
+from proofs.trusted.certificate import SCHEMA, texts
+from proofs.trusted.files import box_to_json, render
 from proofs.trusted.numbers import Range
 from proofs.trusted.parameters import Place
 

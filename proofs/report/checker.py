@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import proofs
-from proofs.trusted.certificate import read
+from proofs.trusted.files import read
 
 VERSION = "314.0.7"  # of npm's pyodide
 _MODULES = ("pyodide.mjs", "pyodide.asm.mjs")

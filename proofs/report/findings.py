@@ -14,7 +14,8 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from proofs.trusted.certificate import LEDGER, Reader, parse, read, used_steps
+from proofs.trusted.certificate import LEDGER, Reader, parse, used_steps
+from proofs.trusted.files import read
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.manifest import command

@@ -19,8 +19,8 @@ from proofs.report.findings import Findings, Statement
 from proofs.report.layout import enumerated, sentences
 from proofs.report.typeset import markdown
 from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.laps import SlopeRange
 from proofs.trusted.numbers import between
-from proofs.trusted.slopes import SlopeRange
 
 _LINE = re.compile(r"@(\S+) (.+)")
 _RULES = "../proofs/trusted/CERTIFICATE.md"

@@ -31,11 +31,11 @@ from proofs.search.s34_circle import prove_arc, prove_longest
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.laps import SlopeRange
+from proofs.trusted.kernel.loops import StableOrbit
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.beyond.attractors import AllStick
-from proofs.trusted.paper.beyond.orbits import StableOrbit
 from proofs.trusted.paper.s34_circle.landing import Separation
-from proofs.trusted.slopes import SlopeRange
 
 _LONGEST = 200  # motion from the separation
 _DOUBLINGS = 20  # of sets along it, beside the slopes

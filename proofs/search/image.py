@@ -30,8 +30,8 @@ from proofs.motion.witness import (
 from proofs.search.evidence import FAILED, Proved, floats_first
 from proofs.search.steps import Prover
 from proofs.trusted.equations import launch_acceleration
-from proofs.trusted.flights import COVER_BITS, Motion, phase_after
-from proofs.trusted.numbers import Range, hull
+from proofs.trusted.flights import Motion, phase_after
+from proofs.trusted.numbers import COVER_BITS, Range, hull
 from proofs.trusted.paper.s34_circle.landing import Separation
 
 _NOT_CUT = (

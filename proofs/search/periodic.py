@@ -20,10 +20,10 @@ from proofs.search.s31_horseshoe import prove
 from proofs.search.shifts import pairs, pieces
 from proofs.search.steps import Prover
 from proofs.trusted.flights import FirstImpact
+from proofs.trusted.kernel.images import image_arc
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.staying import horseshoes
+from proofs.trusted.paper.s31_horseshoe import horseshoes
 from proofs.trusted.parameters import Parameters
-from proofs.trusted.slopes import image_arc
 from proofs.trusted.verdicts import Found
 
 _TRIES = 12  # of sets that are found

@@ -20,13 +20,13 @@ from proofs.search.image import Image, image
 from proofs.search.s33_steps import function_of
 from proofs.trusted.certificate import texts
 from proofs.trusted.equations import arrival, closing, launch
-from proofs.trusted.flights import COVER_BITS, Motion, bits_for, lifted, whole_turns
+from proofs.trusted.flights import Motion, lifted, whole_turns
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.differential import Differential, differential_on
 from proofs.trusted.kernel.enclose import enclosed
 from proofs.trusted.kernel.firstzero import NoFirstZero
-from proofs.trusted.numbers import Range, ceil_text, floor_text, hull
+from proofs.trusted.numbers import COVER_BITS, Range, bits_for, ceil_text, floor_text, hull
 from proofs.trusted.oscillator import Oscillator, flight
 from proofs.trusted.parameters import Place
 

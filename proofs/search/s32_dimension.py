@@ -26,6 +26,7 @@ from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.complexes import Ellipse
 from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.kernel.transfer import growth, on_boundary
 from proofs.trusted.numbers import Phases, Range
 from proofs.trusted.paper.s32_sets.dimension import FULL, WITHOUT_000
@@ -33,7 +34,6 @@ from proofs.trusted.paper.s32_sets.invariant import staying as invariant_set
 from proofs.trusted.paper.s32_sets.inverses import Inverses, Letter
 from proofs.trusted.paper.s32_sets.repeller import Repeller, by_length, repeller
 from proofs.trusted.paper.s34_circle.other_sets import PRINTED
-from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Found
 
@@ -62,7 +62,7 @@ class _Run:
         self.letters = letters
         return []
 
-    def letter(self, domain: Phases) -> tuple[str, Letter]:
+    def letter(self, domain: Range) -> tuple[str, Letter]:
         """Prove the first impact transversal on all of a domain, once."""
         if domain not in self.letters:
             turns = InverseBranch(self.prover.system, domain).turns
@@ -73,8 +73,8 @@ class _Run:
 
     def repeller(
         self,
-        hull: Phases,
-        domains: Sequence[Phases],
+        hull: Range,
+        domains: Sequence[Range],
         words: tuple[str, ...],
         exponent: Fraction | None = None,
     ) -> tuple[str, Repeller]:
@@ -116,15 +116,15 @@ class _Run:
         domains = [self._image(shift.interval, cell) for cell in shift.cells]
         return self.repeller(shift.interval, domains, words, exponent)
 
-    def _image(self, hull: Phases, cell: Phases) -> Phases:
+    def _image(self, hull: Range, cell: Range) -> Range:
         """Return a little more than the part of a cell that f takes to the hull."""
         branch = InverseBranch(self.prover.system, cell)
         ends = [branch.along([float(sum(hull)) / 2, float(end)])[1][0].real for end in hull]
         low, high = (round(Fraction(y), 4) for y in ends)
-        return Phases(max(cell[0], low - _MARGIN), min(cell[1], high + _MARGIN))
+        return (max(cell[0], low - _MARGIN), min(cell[1], high + _MARGIN))
 
     def _inverses(
-        self, hull: Phases, letters: tuple[Letter, ...], words: tuple[str, ...]
+        self, hull: Range, letters: tuple[Letter, ...], words: tuple[str, ...]
     ) -> tuple[Inverses, Remembered, int]:
         """Find an ellipse and paths on which the inverse branches are proved, and how many arcs."""
         ends = sorted({word[k:] for word in words for k in range(len(word))}, key=by_length)

@@ -18,11 +18,11 @@ from proofs.motion.witness import HORIZON
 from proofs.search.evidence import FAILED, Evidence, Proof
 from proofs.search.repair import nearest_sets
 from proofs.search.steps import Prover
+from proofs.trusted.kernel.itineraries import follow
+from proofs.trusted.kernel.laps import SlopeRange
 from proofs.trusted.numbers import within
-from proofs.trusted.paper.s32_sets.invariant import follow
 from proofs.trusted.paper.s32_sets.linear import LinearSet
 from proofs.trusted.parameters import Parameters
-from proofs.trusted.slopes import SlopeRange
 
 _INVARIANT = ("H7", "H8", "H9", "H10")
 _NEARBY = Fraction(1, 10**10)  # how far from an approximate image f is enclosed

@@ -21,14 +21,13 @@ from proofs.search.s33_rectangles import Sets, image_phases, state_after
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.conclusion import Conclusion, place_of
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.differential import BITS, Differential, differential_on
 from proofs.trusted.kernel.rates import PLAIN, Cone
 from proofs.trusted.kernel.rectangles import Rectangle
 from proofs.trusted.numbers import Range
 from proofs.trusted.oscillator import flight
-from proofs.trusted.paper.s33_restitution.horseshoes import place_of
 from proofs.trusted.paper.s33_restitution.rectangles import ALL
 from proofs.trusted.parameters import Parameters, Place
 

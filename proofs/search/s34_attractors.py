@@ -11,9 +11,9 @@ from fractions import Fraction
 from proofs.search.evidence import FAILED, Proof
 from proofs.search.s33_cycles import State, prove_cycle, seen_from
 from proofs.search.s33_steps import ReboundProver
+from proofs.trusted.kernel.conclusion import place_of
 from proofs.trusted.kernel.stable import StableCycle
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s33_restitution.horseshoes import place_of
 
 _UNIT = Fraction(1, 10**6)  # epsilons are multiples
 _FIRST, _LEAST = 250, 24  # units: the first step, and the last one

@@ -15,8 +15,7 @@ from proofs.motion.chatter import BITS, Pushing, around
 from proofs.search.evidence import FAILED, Proof
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
-from proofs.trusted.flights import bits_for
-from proofs.trusted.numbers import Range
+from proofs.trusted.numbers import Range, bits_for
 from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.paper.s34_circle.persistence import Box, Cell, SuperstableMotion, landed
 

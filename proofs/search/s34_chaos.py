@@ -24,11 +24,11 @@ from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.flights import lifted
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.coverings import EntropyBound
+from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Range, within
 from proofs.trusted.paper.branches import Branch
-from proofs.trusted.paper.s34_circle.entropy import EntropyBound
 from proofs.trusted.paper.s34_circle.other_sets import PRINTED
-from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.windows import BITS
 

@@ -24,9 +24,9 @@ from proofs.search.s34_circle import prove_arc, prove_longest
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.flights import Motion
+from proofs.trusted.kernel.coverings import EntropyBound
 from proofs.trusted.numbers import Phases, Range
 from proofs.trusted.paper.branches import Branch
-from proofs.trusted.paper.s34_circle.entropy import EntropyBound
 from proofs.trusted.paper.s34_circle.grazing import Grazing
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts
 from proofs.trusted.paper.s34_circle.laps import EntropyRange

@@ -14,10 +14,10 @@ from proofs.motion.candidate import next_impact
 from proofs.motion.witness import locate
 from proofs.search.evidence import FAILED, Proof
 from proofs.search.steps import Prover
-from proofs.trusted.flights import Motion, bits_for, phase_after
-from proofs.trusted.numbers import Phases, Range, within
-from proofs.trusted.paper.staying import StayingSet
-from proofs.trusted.slopes import SlopeRange
+from proofs.trusted.flights import Motion, phase_after
+from proofs.trusted.kernel.laps import SlopeRange
+from proofs.trusted.kernel.staying import StayingSet
+from proofs.trusted.numbers import Range, bits_for, within
 
 _FINE = Fraction(1, 1000)
 _COARSE = Fraction(1, 100)
@@ -136,7 +136,7 @@ def prove_staying(prover: Prover, printed: Range, around: Range) -> Proof:
     shifts = sketcher.full_shifts(printed, around)
     proofs = Pieces(prover, [few, *shifts])
     found: Proof = []
-    orbits: list[tuple[Phases, ...]] = []
+    orbits: list[tuple[Range, ...]] = []
     with suppress(*FAILED):
         name, kept = proofs.prove(few)
         found.append((name, kept))
@@ -144,7 +144,7 @@ def prove_staying(prover: Prover, printed: Range, around: Range) -> Proof:
     for name, shift in _shifts(proofs, shifts):
         found.append((name, shift))
         orbits += [(shift.cells[0],), (shift.cells[-1],)]
-    known: list[tuple[Phases, ...]] = []
+    known: list[tuple[Range, ...]] = []
     for cells in orbits:
         if not any(len(x) == len(cells) and all(map(within, x, cells)) for x in known):
             with suppress(*FAILED):

@@ -26,11 +26,12 @@ from proofs.trusted.flights import FirstImpact
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.laps import SlopeRange
+from proofs.trusted.kernel.moran import MoranRoot
+from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Range, show_range
-from proofs.trusted.paper.s32_sets.moran import MoranRoot
-from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.parameters import Parameters, Place
-from proofs.trusted.slopes import Avoids, Impact, SlopeRange, meets
+from proofs.trusted.slopes import Avoids, Impact, comes_to
 
 _Made = TypeVar("_Made")
 
@@ -140,7 +141,9 @@ class Prover:
 
     def _avoids(self, phases: Range, target: Range, floats: bool) -> tuple[str, Avoids]:
         def accept(found: Seen) -> bool:
-            return not any(meets(found.flights.phases, window, target) for window in found.windows)
+            return not any(
+                comes_to(self.at, found.flights.phases, window, target) for window in found.windows
+            )
 
         parts = cover_by(
             self.flights(phases),

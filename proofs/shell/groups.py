@@ -14,14 +14,8 @@ from typing import Any, NamedTuple
 from intervals import decimal_bounds
 from proofs.report.page import Line, page
 from proofs.search.evidence import Evidence, Tell
-from proofs.trusted.certificate import (
-    SCHEMA,
-    Reader,
-    box_to_json,
-    parameters_to_json,
-    render,
-    used_steps,
-)
+from proofs.trusted.certificate import SCHEMA, Reader, used_steps
+from proofs.trusted.files import box_to_json, parameters_to_json, render
 from proofs.trusted.manifest import BESIDE
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper import BEYOND, GROUPS, find

@@ -21,7 +21,8 @@ from proofs.shell.entry import workers
 from proofs.shell.files import refusing, write_files, write_target, writing
 from proofs.shell.groups import FILES, Made, produce, row_of, wanted
 from proofs.shell.screen import Decided, say, show_verdicts
-from proofs.trusted.certificate import LEDGER, Malformed, read, render
+from proofs.trusted.certificate import LEDGER, Malformed
+from proofs.trusted.files import read, render
 from proofs.trusted.paper import GROUPS
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict, tally

@@ -12,7 +12,8 @@ from pathlib import Path
 from typing import Any
 
 from proofs.shell.groups import FILES
-from proofs.trusted.certificate import MANIFEST, Reader, digest, parameters_from_json, render
+from proofs.trusted.certificate import MANIFEST, Reader, parameters_from_json
+from proofs.trusted.files import digest, render
 from proofs.trusted.manifest import checking, command
 
 NAME = "MANIFEST.json"

@@ -31,7 +31,8 @@ from proofs.shell.files import (
 from proofs.shell.groups import FILES, Made, printed, produce, wanted
 from proofs.shell.parameters import add_parameters, parameters, refusal
 from proofs.shell.screen import Decided, gist, say, show_verdicts
-from proofs.trusted.certificate import Malformed, parameters_to_json, read
+from proofs.trusted.certificate import Malformed
+from proofs.trusted.files import parameters_to_json, read
 from proofs.trusted.kernel.meter import DEFAULT, Exhausted
 from proofs.trusted.paper import BEYOND
 from proofs.trusted.parameters import PAPER, Parameters

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Callable, Iterator
+from inspect import CO_OPTIMIZED
 from pathlib import Path
 from types import FrameType
 from typing import Any, NamedTuple, TypeVar
@@ -64,7 +65,7 @@ def watched(run: Callable[[], T]) -> tuple[T, set[str]]:
     files: set[str] = set()
 
     def observe(frame: FrameType, event: str, _: object) -> None:
-        if event == "call" and frame.f_code.co_name != "<module>":
+        if event == "call" and frame.f_code.co_flags & CO_OPTIMIZED:  # no module, no class's body
             files.add(frame.f_code.co_filename)
 
     before = sys.getprofile()

@@ -23,14 +23,10 @@ from __future__ import annotations
 
 import dataclasses
 import json
-import os
 import re
-import stat
 from collections.abc import Iterator
 from fractions import Fraction
-from hashlib import sha256
-from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any
 
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.meter import METER
@@ -43,7 +39,7 @@ MANIFEST = "impact-proofs.manifest/3"
 LEDGER = "impact-proofs.ledger/2"
 MAX_BYTES = 4_000_000
 _MAX_DIGITS = 3000
-_SIGNS = "signs"  # a field of the parameters that is there only if f decreases
+SIGNS = "signs"  # a field of the parameters that is there only if f decreases
 _MAX_DIGITS_OF_PARAMETERS = 400
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]{0,59}")
 _RATIONAL = re.compile(r"-?(0|[1-9][0-9]*)(/[1-9][0-9]*)?")
@@ -227,75 +223,11 @@ def parse(source: str) -> Reader:
     return Reader(value)
 
 
-def opened(path: Path) -> BinaryIO:
-    """Open a regular file; OSError where it is none, such as a pipe, which is not waited for."""
-    handle = os.open(path, os.O_RDONLY | getattr(os, "O_BINARY", 0) | getattr(os, "O_NONBLOCK", 0))
-    if not stat.S_ISREG(os.fstat(handle).st_mode):
-        os.close(handle)
-        raise OSError("not a regular file")
-    return os.fdopen(handle, "rb")
-
-
-def read(path: Path) -> str:
-    """Return a file's text; Malformed if it is too large or no UTF-8, OSError as in `opened`."""
-    with opened(path) as file:
-        return decoded(file.read(MAX_BYTES + 1))
-
-
-def decoded(content: bytes) -> str:
-    """Return the text that was read, up to a byte more than is allowed."""
-    if len(content) > MAX_BYTES:
-        raise Malformed(f"$: larger than {MAX_BYTES} bytes")
-    METER.get().spend(len(content) >> 3)
-    try:
-        return content.decode()
-    except UnicodeDecodeError:
-        raise Malformed("$: not a text file") from None
-
-
-def schema_of(source: str) -> str:
-    """Return the schema that a text names, whatever else it holds; "" if it names none."""
-    document = parse(source)
-    return Reader(document.value["schema"], "$.schema").string() if document.has("schema") else ""
-
-
-def digest(source: str) -> str:
-    """Return the SHA-256 of a certificate's canonical form: without white space, ASCII.
-
-    Keys stay in their order, which steps and expressions have: two files with the same digest are
-    accepted or not, and say the same, however they are laid out.
-    """
-    canonical = json.dumps(json.loads(source), separators=(",", ":"))
-    return "sha256:" + sha256(canonical.encode("ascii")).hexdigest()
-
-
-def render(document: dict[str, Any]) -> str:
-    """Write a certificate's text: the same document gives the same bytes."""
-    return json.dumps(document, indent=1, ensure_ascii=False) + "\n"
-
-
-def parameters_to_json(of: Parameters) -> dict[str, Any]:
-    """Write one statement's numbers."""
-    return {
-        "eta": text(of.eta),
-        "nu": text(of.nu),
-        "left": texts(of.left),
-        "right": texts(of.right),
-        "interval": texts(of.interval),
-        "slopes": texts(of.slopes),
-        "ratios": None if of.ratios is None else texts(of.ratios),
-        "printed_s0": of.printed_s0,
-        "epsilon": None if of.epsilon is None else text(of.epsilon),
-        "velocities": None if of.velocities is None else texts(of.velocities),
-        "reach": None if of.reach is None else texts(of.reach),
-    } | ({} if of.signs == (1, 1) else {_SIGNS: list(map(str, of.signs))})
-
-
 def parameters_from_json(reader: Reader) -> Parameters:
     """Read and validate one statement's numbers."""
     names = [field.name for field in dataclasses.fields(Parameters)]
-    if not reader.has(_SIGNS):
-        names.remove(_SIGNS)
+    if not reader.has(SIGNS):
+        names.remove(SIGNS)
     eta, nu, left, right, interval, slopes, ratios, printed, epsilon, *more = reader.fields(*names)
     velocities, reach, *signs = more
     try:
@@ -319,12 +251,6 @@ def parameters_from_json(reader: Reader) -> Parameters:
         raise reader.fail(str(error)) from None
     _require_short(reader)
     return parameters
-
-
-def box_to_json(box: Place) -> dict[str, Any]:
-    """Write the box of oscillators that a file is about."""
-    sides = {"eta": box.eta, "nu": box.nu, "epsilon": box.epsilon}
-    return {name: texts(side) for name, side in sides.items() if side is not None}
 
 
 def subject_from_json(reader: Reader) -> Parameters | Place | None:

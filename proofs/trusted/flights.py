@@ -7,23 +7,48 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, partial
 from itertools import pairwise
+from typing import ClassVar
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import Clock, Launch, clock, gap, launch, launch_acceleration, slope
 from proofs.trusted.kernel.arithmetic import Dual, Enclosure, Unproved, pi, rational
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.conclusion import Conclusion, Subject
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.gaps import Gap, brackets, fall, first_windows
-from proofs.trusted.numbers import TURN, Range, increasing, show_range, within
+from proofs.trusted.numbers import (
+    COVER_BITS,
+    MAX_BITS,
+    TURN,
+    Range,
+    bits_for,
+    increasing,
+    rounded_bits,
+    show_range,
+    within,
+)
 from proofs.trusted.parameters import Place
 
-COVER_BITS = 64
-MAX_BITS = 4000
 LATEST = 10**6
 _ZERO = Fraction(0)
 
 
 # -- plastic impacts -------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class PlasticMap(Subject):
+    """The plastic impact map f of oscillators: from the phase of an impact to that of the next."""
+
+    at: Place
+    name: ClassVar = "f"
+    definition: ClassVar = "f"
+    of_orbits: ClassVar = (
+        "; all its impacts are transversal, and after each the mass leaves the table at once"
+    )
+
+    def periods(self, bits: int) -> dict[int, Enclosure]:
+        """Enclose 2 pi."""
+        return {0: pi(bits) * 2}
 
 
 @dataclass(frozen=True)
@@ -184,20 +209,7 @@ def transversal_step(context: Context, name: Reader, phases: Range) -> FirstImpa
 def bits_for_pieces(times: Sequence[Fraction]) -> int:
     """Return the precision for pieces of times: gaps are of the order w^2 in a piece of width w."""
     shortest = min(now - before for before, now in pairwise((_ZERO, *times)))
-    return _rounded(COVER_BITS + 2 * (1 / shortest).__ceil__().bit_length())
-
-
-def bits_for(time: Range) -> int:
-    """Return the precision that a bracket of this width deserves."""
-    width = time[1] - time[0]
-    if width == 0:
-        raise Unproved("an empty bracket")
-    return _rounded(max(COVER_BITS, (1 / width).__ceil__().bit_length() + 40))
-
-
-def _rounded(bits: int) -> int:
-    """Return a precision that many flights share, so that the sines of their times are known."""
-    return min(MAX_BITS, -(-bits // 16) * 16)
+    return rounded_bits(COVER_BITS + 2 * (1 / shortest).__ceil__().bit_length())
 
 
 def bracketed(step: FirstImpact, phases: Range, time: Range) -> Motion:

@@ -7,7 +7,8 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-from proofs.trusted.certificate import Reader, digest, parameters_to_json, parse, read
+from proofs.trusted.certificate import Reader, parse
+from proofs.trusted.files import digest, parameters_to_json, read
 from proofs.trusted.kernel.meter import metered
 from proofs.trusted.numbers import show
 from proofs.trusted.paper import BEYOND, GROUPS, find

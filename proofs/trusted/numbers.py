@@ -12,6 +12,7 @@ from proofs.trusted.kernel.arithmetic import Unproved
 Range = tuple[Fraction, Fraction]
 
 TURN = Fraction("6.283185307")  # a little less than 2 pi
+COVER_BITS, MAX_BITS = 64, 4000  # precisions, from that of a cover
 _LONGEST = 12_000  # bits of a number that is written
 _MOST_PLACES = 40  # of a decimal, where nobody asked for more
 
@@ -141,3 +142,16 @@ def common(one: Range, two: Range) -> Range:
 def agree(bounds: Range, digits: int) -> bool:
     """Whether two bounds are equal to `digits` significant digits."""
     return bounds[1] - bounds[0] <= min(abs(bounds[0]), abs(bounds[1])) / Fraction(10) ** digits
+
+
+def bits_for(time: Range) -> int:
+    """Return the precision that a bracket of this width deserves."""
+    width = time[1] - time[0]
+    if width == 0:
+        raise Unproved("an empty bracket")
+    return rounded_bits(max(COVER_BITS, (1 / width).__ceil__().bit_length() + 40))
+
+
+def rounded_bits(bits: int) -> int:
+    """Return a precision that many share, so that the sines of their times are known."""
+    return min(MAX_BITS, -(-bits // 16) * 16)

@@ -7,13 +7,13 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.coverings import EntropyBound
 from proofs.trusted.kernel.cycle import ATTRACTING, PeriodicOrbit
 from proofs.trusted.kernel.graph import Entropy
+from proofs.trusted.kernel.loops import StableOrbit
 from proofs.trusted.paper.beyond.attractors import AllStick, AtRest
-from proofs.trusted.paper.beyond.orbits import StableOrbit
 from proofs.trusted.paper.beyond.returning import ReturningMotion, StickingMotion
 from proofs.trusted.paper.beyond.singles import MOST_PERIODS, StableSingles
-from proofs.trusted.paper.s34_circle.entropy import EntropyBound
 from proofs.trusted.verdicts import Verdict
 
 _MOST_CELLS = 50

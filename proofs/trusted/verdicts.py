@@ -120,10 +120,11 @@ class Found:
     """The conclusions that a claim is decided by, matched with its parameters here, and only here.
 
     here: about the claim's own oscillator, or about none; everywhere: witnesses at other ones, too.
+    What is about a map of the file decides nothing.
     """
 
     def __init__(self, of: Parameters, conclusions: Iterable[Conclusion]) -> None:
-        self.everywhere = tuple(conclusions)
+        self.everywhere = tuple(x for x in conclusions if not x.is_foreign)
         self.here = tuple(x for x in self.everywhere if x.place is None or x.place.holds(of))
 
     def all(self, kind: type[C]) -> list[C]:

@@ -14,14 +14,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from proofs.trusted.certificate import (
-    FIELDS,
-    SCHEMA,
-    Reader,
-    parse,
-    subject_from_json,
-    used_steps,
-)
+from proofs.trusted.certificate import FIELDS, SCHEMA, Reader, parse, subject_from_json, used_steps
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context

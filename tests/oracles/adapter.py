@@ -61,7 +61,7 @@ def plain(value, share=0):
         record |= {each: plain(getattr(value, each), share) for each in _MORE.get(name, ())}
         if "box" in record:  # of states; the other one is of oscillators
             record["region"] = record["box"]
-        about = getattr(value, "at", None) or getattr(value, "place", None)
+        about = value.place if hasattr(value, "place") else getattr(value, "at", None)
         record |= place(about, share)
         return SimpleNamespace(**record, kind=name)
     raise TypeError(f"nothing is known about {type(value).__name__}")

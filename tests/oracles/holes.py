@@ -41,14 +41,14 @@ def reopened(lines):
 
 ORDER = (
     Lines(
-        "paper.staying:staying_set",
+        "kernel.staying:staying_set",
         (
             ("sorted(cells, key=lambda x: x.domain)", "list(cells)"),
             ('raise Unproved("cells overlap")', "pass"),
         ),
     ),
     Lines(
-        "paper.staying:StayingSet.__post_init__",
+        "kernel.staying:StayingSet.__post_init__",
         (("not apart(self.cells)", "False"),),
     ),
 )

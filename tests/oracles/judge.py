@@ -13,7 +13,9 @@ from tests.oracles import (
     formulas,
     kernel,
     laps,
+    lines,
     outcomes,
+    planar,
     plastic,
     restitution,
     sets,
@@ -44,7 +46,8 @@ def judge_of(kind):
 
 def judge(record, rng):
     """Complaints about a record that `adapter.view` made."""
-    return judge_of(record.kind)(record, rng)
+    own = planar.is_of_a_file(getattr(record, "base", record)) and lines.JUDGES.get(record.kind)
+    return (own or judge_of(record.kind))(record, rng)
 
 
 def oracle(conclusion, rng, of=None):

@@ -271,7 +271,7 @@ def staying_set(view, rng):
             seen = maps_over(view, cell, other)
             if seen != "unknown" and seen is not (j in view.onward[i]):
                 told.append(f"no full shift, no cycle: cell {i} is mapped over cell {j}: {seen}")
-    told += _graph_faults(view)
+    told += graph_faults(view)
     if len(view.region) == 1:
         told += _region_faults(view, view.region[0], rng)
     elif view.whole:
@@ -279,7 +279,7 @@ def staying_set(view, rng):
     return told
 
 
-def _graph_faults(view):
+def graph_faults(view):
     """What is wrong with the arrows: growth, closed paths, the one orbit."""
     told, count = [], len(view.cells)
     matrix = np.array([[int(j in after) for j in range(count)] for after in view.onward])

@@ -60,7 +60,7 @@ def test_holes_are_found_by_edits_alone(claim, lines, odd):
         assert run(80, odd=odd, only=(claim,), enough=1).complaints
 
 
-OF_IMAGES = Lines("kernel.image:_inside", (("all(within", "any(within"),))
+OF_IMAGES = Lines("kernel.differential:_inside", (("all(within", "any(within"),))
 
 
 @pytest.mark.usefixtures("files_of_no_claims")

@@ -10,9 +10,9 @@ from proofs.report.figures.figure import Figure, all_of, the
 from proofs.report.figures.sampled import image, preimage
 from proofs.report.figures.style import BLUE, GREY, ORANGE, proved_boxes, sheet
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Range, between, show_range
 from proofs.trusted.paper.s32_sets.repeller import Repeller
-from proofs.trusted.paper.staying import StayingSet
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

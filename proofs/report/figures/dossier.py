@@ -13,12 +13,12 @@ from proofs.report.figures.figure import Figure, all_of
 from proofs.report.figures.sampled import graph
 from proofs.report.figures.style import BLUE, GREY, ORANGE, RED, dots, proved_boxes, sheet
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.numbers import Phases, Range
-from proofs.trusted.paper.beyond.orbits import StableOrbit
+from proofs.trusted.kernel.coverings import EntropyBound
+from proofs.trusted.kernel.loops import StableOrbit
+from proofs.trusted.kernel.staying import StayingSet
+from proofs.trusted.numbers import Range
 from proofs.trusted.paper.beyond.returning import StickingMotion
-from proofs.trusted.paper.s34_circle.entropy import EntropyBound
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
-from proofs.trusted.paper.staying import StayingSet
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawing
@@ -27,7 +27,7 @@ _SAMPLES = 1200
 _BELOW = (-0.12, 0.0)  # where sets of phases are marked
 
 
-def crossings(found: StayingSet) -> list[tuple[Phases, Phases]]:
+def crossings(found: StayingSet) -> list[tuple[Range, Range]]:
     """Return a box for each arrow: f crosses it from its lower to its upper edge, or down."""
     return [(found.cells[i], found.cells[j]) for i, after in enumerate(found.onward) for j in after]
 
@@ -53,7 +53,7 @@ def plot(proved: Context) -> Drawing:
     for shift in all_of(proved, StayingSet):
         proved_boxes(axes, crossings(shift), "#C6E5F7", "crossed by f, proved", lw=0.3)
     for graph_found in all_of(proved, EntropyBound):
-        branches = [(branch.phases, _BELOW) for branch in graph_found.branches]
+        branches = [(branch.source, _BELOW) for branch in graph_found.branches]
         proved_boxes(axes, branches, BLUE, "branches of a covering graph, proved")
     for orbit in all_of(proved, StableOrbit):
         boxes = steps((*orbit.cells, orbit.cells[0]))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 from intervals import Undecided
 from proofs.report.figures.style import style, svg_of
-from proofs.trusted.certificate import read
+from proofs.trusted.files import read
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.verify import premises

@@ -22,9 +22,10 @@ from proofs.report.figures.style import (
     sheet,
 )
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.laps import SlopeRange
+from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Range, between, show, show_range
-from proofs.trusted.paper.staying import StayingSet
-from proofs.trusted.slopes import Avoids, SlopeRange
+from proofs.trusted.slopes import Avoids
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

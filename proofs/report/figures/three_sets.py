@@ -11,9 +11,9 @@ from proofs.report.figures.impact_map import hulls
 from proofs.report.figures.sampled import graph
 from proofs.report.figures.style import BLACK, BLUE, GREY, dots, proved_polygons, sheet
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.laps import SlopeRange
+from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Range, show_range, within
-from proofs.trusted.paper.staying import StayingSet
-from proofs.trusted.slopes import SlopeRange
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -8,7 +8,8 @@ from fractions import Fraction
 from functools import cached_property
 from typing import NamedTuple
 
-from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, exp, pi, rational
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, pi, rational
+from proofs.trusted.kernel.elementary import exp
 from proofs.trusted.numbers import Range
 
 BITS = 64  # where sizes count, not digits

@@ -24,13 +24,12 @@ from proofs.trusted.kernel.enclose import (
     point_box,
     size,
 )
-from proofs.trusted.kernel.maps import Map
+from proofs.trusted.kernel.maps import Map, counted, read_turns, turned
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range, show, show_range
 
 MAX_POWER = 100
 _MAX_DIMENSION = 6
-_MOST_TURNS = 10**6
 _SIDE = (Fraction(-1), Fraction(1))
 _SIGNS = {"+": 1, "-": -1}
 
@@ -127,19 +126,6 @@ class LocalMap:
         return [add(rational(c, x[0].bits), row, x) for c, row in rows]
 
 
-def counted(turns: int) -> str:
-    """Write a number of periods."""
-    return f"{turns} period" if turns == 1 else f"{turns} periods"
-
-
-def turned(map_: Map, x: Sequence[Enclosure], turns: Sequence[int]) -> list[Enclosure]:
-    """Enclose x less some periods of its angles."""
-    lifted = list(x)
-    for (place, period), count in zip(map_.periods(x[0].bits).items(), turns, strict=True):
-        lifted[place] = lifted[place] - period * count
-    return lifted
-
-
 def images(map_: Differentiable, x: Sequence[Enclosure], count: int) -> list[list[Enclosure]]:
     """Enclose x and its images, `count` in all."""
     points = [list(x)]
@@ -229,17 +215,6 @@ def covers(context: Context, reader: Reader) -> Covers:
     for leaf in leaves(support, cube(n)):
         decide(local, leaf, _clear_of_the_sides)
     return Covers(local, s)
-
-
-def read_turns(map_: Map, reader: Reader) -> tuple[int, ...]:
-    """Read the field `turns`, which is there if a map has angles: an integer for each of them."""
-    count = len(map_.circles)
-    if reader.has("turns") != (count > 0):
-        raise reader.fail("`turns` are for maps with angles, and needed there")
-    if not count:
-        return ()
-    turns = dict(reader.entries())["turns"].items(count, count)
-    return tuple(integer(each, -_MOST_TURNS, _MOST_TURNS) for each in turns)
 
 
 def cube(n: int) -> Box:

@@ -12,7 +12,7 @@ from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.contractor import Point
-from proofs.trusted.kernel.covers import MAX_POWER, counted, images, read_turns
+from proofs.trusted.kernel.covers import MAX_POWER, images
 from proofs.trusted.kernel.enclose import (
     Box,
     Matrix,
@@ -22,7 +22,7 @@ from proofs.trusted.kernel.enclose import (
     read_box,
     tried,
 )
-from proofs.trusted.kernel.maps import Map
+from proofs.trusted.kernel.maps import Map, counted, read_turns
 from proofs.trusted.kernel.periodic import Closing, derivative
 from proofs.trusted.kernel.zeros import read_matrix, require_zero
 

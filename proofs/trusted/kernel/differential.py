@@ -1,28 +1,33 @@
-"""Rule: what a map and its derivative are on a box."""
+"""Rules: what a map and its derivative are on a box, on an interval."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
+from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.kernel.arithmetic import Enclosure
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
+from proofs.trusted.kernel.conclusion import Conclusion, given
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.covers import counted, read_turns, turned
 from proofs.trusted.kernel.enclose import (
     PRECISIONS,
     Box,
     box_text,
+    decide,
     enclosed,
     integer,
+    leaves,
     mean_value_form,
     read_box,
 )
-from proofs.trusted.kernel.maps import Map
-from proofs.trusted.numbers import Range, between
+from proofs.trusted.kernel.laps import Gap, SlopeRange, meets, shifted, turn_of
+from proofs.trusted.kernel.maps import Map, counted, read_turns, turned
+from proofs.trusted.numbers import Range, between, increasing, show_range, within
 
 BITS = PRECISIONS[0]
+_MOST_POINTS = 1000
 
 
 @dataclass(frozen=True)
@@ -59,11 +64,6 @@ def less(map_: Map, turns: Sequence[int]) -> str:
 def angles(map_: Map) -> list[str]:
     """Return the names of the angles among the variables."""
     return [map_.variables[circle.place] for circle in map_.circles]
-
-
-def given(map_: Map) -> str:
-    """Begin a sentence about a map; what the oscillator's is, the text before says."""
-    return "" if getattr(map_, "at", None) else f"for {map_.definition}: "
 
 
 def differential(context: Context, reader: Reader) -> Differential:
@@ -103,3 +103,85 @@ def sharp_values(map_: Map, x: Sequence[Enclosure]) -> list[Enclosure]:
 
 def _ranges(values: Sequence[Enclosure]) -> tuple[Range, ...]:
     return tuple(value.range for value in values)
+
+
+# -- values ----------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Image(Gap):
+    """A map is defined and continuous on a box, and takes it into another one."""
+
+    function: Map
+    box: Box
+    bounds: Box
+
+    @property
+    def source(self) -> Range:
+        """The box, of a map of one variable."""
+        if len(self.box) != 1 or len(self.bounds) != 1:
+            raise Unproved("a map of the line is expected")
+        return self.box[0]
+
+    def misses(self, target: Range) -> bool:
+        """Whether the bounds exclude an interval."""
+        return not meets(self.function, self.bounds[0], target)
+
+    @property
+    def sentence(self) -> str:
+        """Return the statement."""
+        place = box_text(self.box, self.function.variables)
+        values = ", ".join(map(show_range, self.bounds))
+        return (
+            f"for {self.function.definition}: `{self.function.name}` is defined for {place}, and "
+            f"its values are in {values}."
+        )
+
+
+def image(context: Context, reader: Reader) -> Image:
+    """Rule `image`: {function F, box, tree, bounds}, bounds being a range for each value.
+
+    Hypothesis: on each leaf of the tree, which divides the box, an enclosure of F, in the natural
+    or in the mean value form, lies within the bounds. Conclusion: F is defined on the box, and its
+    values there are in the bounds; those of angles are not reduced. Proof. The leaves cover the
+    box; an enclosure contains all values on its leaf, and exists only where F is defined.
+    """
+    function_of, box_of, tree, bounds_of = reader.fields("function", "box", "tree", "bounds")
+    function = context.function(function_of)
+    box, bounds = read_box(box_of, len(function.variables)), read_box(bounds_of, function.size)
+    for leaf in leaves(tree, box):
+        decide(function, leaf, partial(_inside, bounds))
+    return Image(function, box, bounds)
+
+
+def _inside(bounds: Box, values: list[Enclosure]) -> bool:
+    return all(within(value.range, side) for value, side in zip(values, bounds, strict=True))
+
+
+# -- slopes ----------------------------------------------------------------------------------------
+
+
+def slopes(context: Context, reader: Reader) -> SlopeRange:
+    """Rule `slopes`: {function F of one variable, points x_0 < ... < x_n, bits}.
+
+    Conclusion: F is C^1 on [x_0, x_n]; F and F' are enclosed at the points, F' on the pieces
+    between; if the variable is an angle, F is less as many periods as put it in [0, P).
+    Proof. Enclosures exist only where F and its derivative are defined, and the pieces are closed.
+    """
+    function_of, points_of, bits_of = reader.fields("function", "points", "bits")
+    map_, points = context.function(function_of), points_of.numbers(2, _MOST_POINTS)
+    if not len(map_.variables) == map_.size == 1 or not increasing(points):
+        raise function_of.fail("a map of the line, and points that increase, are expected")
+    bits = integer(bits_of, BITS, PRECISIONS[-1])
+    at, between_them = (
+        [differential_on(map_, (side,), [0] * len(map_.circles), bits) for side in sides]
+        for sides in ([(x, x) for x in points], pairwise(points))
+    )
+    images = tuple(_reduced(map_, each.values[0]) for each in at)
+    inner, pieces = (tuple(x.matrix[0][0] for x in parts) for parts in (at, between_them))
+    return SlopeRange(map_, points, inner, images, pieces)
+
+
+def _reduced(map_: Map, value: Range) -> Range:
+    turn = turn_of(map_)
+    return value if turn is None else shifted(map_, value, -int(value[0] // turn))

@@ -11,7 +11,7 @@ from math import isqrt
 from typing import Any, Protocol, TypeVar
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.kernel import arithmetic
+from proofs.trusted.kernel import arithmetic, elementary
 from proofs.trusted.kernel.arithmetic import Enclosure, Futile, Unproved, rational
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range, show, show_range
@@ -88,15 +88,15 @@ def sqrt(x: Enclosure) -> Enclosure:
 
 def _exp(x: Enclosure) -> Enclosure:
     """Enclose exp, which increases: from the two ends."""
-    low = arithmetic.exp(Enclosure(x.lo, x.lo, x.bits))
-    return low.hull(arithmetic.exp(Enclosure(x.hi, x.hi, x.bits)))
+    low = elementary.exp(Enclosure(x.lo, x.lo, x.bits))
+    return low.hull(elementary.exp(Enclosure(x.hi, x.hi, x.bits)))
 
 
 def _log(x: Enclosure) -> Enclosure:
     """Enclose log, which increases: from the two ends."""
     if x.lo <= 0:
         raise Unproved("the logarithm of a number that may not be positive")
-    low, high = (arithmetic.log(end, x.bits) for end in x.range)
+    low, high = (elementary.log(end, x.bits) for end in x.range)
     return low.hull(high)
 
 

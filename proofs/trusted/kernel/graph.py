@@ -6,10 +6,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.kernel.arithmetic import Unproved, log
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.covers import MAX_POWER, Covers, HSet, disjoint
+from proofs.trusted.kernel.elementary import log
 from proofs.trusted.kernel.enclose import integer
 from proofs.trusted.kernel.maps import Map, same_state
 from proofs.trusted.kernel.meter import METER
@@ -71,9 +72,10 @@ class Entropy(Conclusion):
         """Return the statement, with the bound as decimals."""
         steps = self.length * self.graph.covers[0].local.power
         low, high = (end / steps for end in log(Fraction(self.growth), _LOG_BITS).range)
+        share = f"/{steps}" if steps > 1 else ""
         return (
             f"{self.graph.described}; the topological entropy of {self.graph.map_name} on a "
-            f"compact invariant set is at least log({self.growth})/{steps}, which lies in "
+            f"compact invariant set is at least log({self.growth}){share}, which lies in "
             f"[{floor_text(low, 12)}, {ceil_text(high, 12)}]."
         )
 

@@ -6,9 +6,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.conclusion import Conclusion, given
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.differential import given
 from proofs.trusted.kernel.enclose import Box, integer
 from proofs.trusted.kernel.maps import Map
 from proofs.trusted.kernel.meter import METER

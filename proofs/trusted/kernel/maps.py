@@ -15,33 +15,30 @@ from typing import Protocol
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure
-from proofs.trusted.kernel.enclose import Box, Differentiable, Matrix, multiply
+from proofs.trusted.kernel.conclusion import Subject
+from proofs.trusted.kernel.enclose import Box, Differentiable, Matrix, integer, multiply
 from proofs.trusted.kernel.flight import read_flight
 from proofs.trusted.kernel.formulas import Circle
 from proofs.trusted.kernel.head import read_function, require_function_name
 from proofs.trusted.kernel.parametric import Parametric, chained, ranges_of
 
 _MOST_MAPS = 100
+_MOST_TURNS = 10**6
 
 
-class Map(Differentiable, Protocol):
+class Map(Subject, Differentiable, Protocol):
     """A map of a file, of some variables, to `size` values.
 
-    periods: of those variables that are angles, by their places; the map respects them: the image
-    of x + a period is that of x, plus a multiple of the period of each value that is an angle.
+    It respects the periods of its angles: the image of x + a period is that of x, plus a multiple
+    of the period of each value that is an angle.
     """
 
-    @property
-    def name(self) -> str: ...
     @property
     def variables(self) -> tuple[str, ...]: ...
     @property
     def size(self) -> int: ...
     @property
-    def definition(self) -> str: ...
-    @property
     def circles(self) -> tuple[Circle, ...]: ...
-    def periods(self, bits: int) -> dict[int, Enclosure]: ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,3 +136,30 @@ def same_state(one: Map, two: Map) -> bool:
     """Whether two maps have one state: the same variables, and the same angles among them."""
     angles = [{(circle.place, circle.period) for circle in each.circles} for each in (one, two)]
     return one.variables == two.variables and angles[0] == angles[1]
+
+
+# -- turns -----------------------------------------------------------------------------------------
+
+
+def counted(turns: int) -> str:
+    """Write a number of periods."""
+    return f"{turns} period" if turns == 1 else f"{turns} periods"
+
+
+def turned(map_: Map, x: Sequence[Enclosure], turns: Sequence[int]) -> list[Enclosure]:
+    """Enclose x less some periods of its angles."""
+    lifted = list(x)
+    for (place, period), count in zip(map_.periods(x[0].bits).items(), turns, strict=True):
+        lifted[place] = lifted[place] - period * count
+    return lifted
+
+
+def read_turns(map_: Map, reader: Reader) -> tuple[int, ...]:
+    """Read the field `turns`, which is there if a map has angles: an integer for each of them."""
+    count = len(map_.circles)
+    if reader.has("turns") != (count > 0):
+        raise reader.fail("`turns` are for maps with angles, and needed there")
+    if not count:
+        return ()
+    turns = dict(reader.entries())["turns"].items(count, count)
+    return tuple(integer(each, -_MOST_TURNS, _MOST_TURNS) for each in turns)

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 
-DEFAULT = 8_000_000  # some eight seconds; a committed certificate takes as much, the others less than three
+DEFAULT = 8_000_000  # some eight seconds; committed certificates take less
 
 
 class Exhausted(ArithmeticError):

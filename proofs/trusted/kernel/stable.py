@@ -10,11 +10,11 @@ from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.conclusion import Conclusion, given
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.covers import MAX_POWER
 from proofs.trusted.kernel.cycle import may_be_one
-from proofs.trusted.kernel.differential import given, sharp_values
+from proofs.trusted.kernel.differential import sharp_values
 from proofs.trusted.kernel.enclose import (
     Box,
     Matrix,

@@ -9,8 +9,9 @@ from functools import cached_property
 from itertools import pairwise
 from typing import Protocol
 
-from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, exp, log, log_of, pi, rational
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, pi, rational
 from proofs.trusted.kernel.complexes import Arc, Complex, Ellipse
+from proofs.trusted.kernel.elementary import exp, log, log_of
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range, hull, within
 

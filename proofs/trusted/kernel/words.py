@@ -8,9 +8,9 @@ from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.conclusion import Conclusion, given
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.differential import given, image_of
+from proofs.trusted.kernel.differential import image_of
 from proofs.trusted.kernel.enclose import Box, integer
 from proofs.trusted.kernel.horseshoe import read_rectangles
 from proofs.trusted.kernel.maps import Map

@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.flights import FirstImpact, Motion, lifted
+from proofs.trusted.flights import FirstImpact, Motion, PlasticMap, lifted
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import integer
 from proofs.trusted.kernel.gaps import falls
-from proofs.trusted.kernel.meter import METER
+from proofs.trusted.kernel.laps import Lap
 from proofs.trusted.numbers import Phases, Range, hull, increasing, show_range, within
 from proofs.trusted.parameters import Place
 from proofs.trusted.windows import BITS, DEEPEST, Meetings, clear, leaves, level
@@ -26,7 +24,7 @@ _HALVINGS = 12
 
 
 @dataclass(frozen=True)
-class Branch(Conclusion):
+class Branch(Lap):
     """f is C^1 on [cuts[0], cuts[-1]], each first impact being transversal.
 
     A launch in [cuts[i], cuts[i+1]] has gap > 0 up to the beginning of windows[i], then one zero,
@@ -53,6 +51,21 @@ class Branch(Conclusion):
     def phases(self) -> Phases:
         """The closed interval of phases."""
         return Phases(self.cuts[0], self.cuts[-1])
+
+    @property
+    def subject(self) -> PlasticMap:
+        """f."""
+        return PlasticMap(self.at)
+
+    @property
+    def source(self) -> Range:
+        """The phases."""
+        return self.phases
+
+    def read_image(self, point: Fraction, entry: Reader) -> Range:
+        """Enclose f by a bracket of the first impact, {phase, time}, less 2 pi turn."""
+        _, time_of = entry.fields("phase", "time")
+        return lifted(self.image(point, time_of.range()), -self.turn, BITS)
 
     @property
     def times(self) -> Range:
@@ -192,19 +205,3 @@ def _joined(context: Context, names: Reader, turn_of: Reader) -> Branch:
         raise Unproved("the flights are about different oscillators")
     cuts, windows = (parts[0][0], *(high for _, high in parts)), (x.windows[0] for x in flights)
     return Branch(places.pop(), cuts, integer(turn_of, 0, MOST_TURNS), tuple(windows))
-
-
-def read_images(branches: Sequence[Branch], entries: Reader) -> dict[Fraction, Range]:
-    """Read phases on branches and brackets of their first impacts; enclose f there, on the line."""
-    return dict(read_image(branches, entry) for entry in entries.items(1, 5000))
-
-
-def read_image(branches: Sequence[Branch], entry: Reader) -> tuple[Fraction, Range]:
-    """Read a phase on a branch and a bracket of its first impact; enclose f there, on the line."""
-    phase_of, time_of = entry.fields("phase", "time")
-    phase = phase_of.number()
-    METER.get().spend(len(branches))
-    on = [each for each in branches if each.cuts[0] <= phase <= each.cuts[-1]]
-    if not on:
-        raise phase_of.fail("the phase lies on no branch")
-    return phase, lifted(on[0].image(phase, time_of.range()), -on[0].turn, BITS)

@@ -7,11 +7,18 @@ from contextlib import suppress
 from fractions import Fraction
 
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.images import ImageArc, image_arc
+from proofs.trusted.kernel.laps import SlopeRange, signed
+from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Range, ceil_text, within
-from proofs.trusted.paper.staying import horseshoes
 from proofs.trusted.parameters import Parameters
-from proofs.trusted.slopes import Avoids, ImageArc, Impact, SlopeRange, image_arc, signed
+from proofs.trusted.slopes import Avoids, Impact
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
+
+
+def horseshoes(found: Found) -> list[StayingSet]:
+    """Return the horseshoes that are proved."""
+    return [each for each in found.all(StayingSet) if each.is_horseshoe]
 
 
 def escapes(avoided: Avoids, gap: Range, interval: Range) -> bool:

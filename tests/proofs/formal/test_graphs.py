@@ -15,7 +15,7 @@ from proofs.formal import __main__ as formal
 from proofs.formal import coqc, graphs
 from proofs.formal.written import comment
 from proofs.methods.symbolic import SymbolicLemmas
-from proofs.trusted.certificate import render
+from proofs.trusted.files import render
 from proofs.trusted.kernel.trees import formula
 from proofs.trusted.verify import check
 from tests.proofs.formal.coq import ROOT, edited, needs_coqc

@@ -25,7 +25,7 @@ from proofs.methods.bifurcation.closed import closed
 from proofs.methods.bifurcation.maps import Map, formula
 from proofs.methods.bifurcation.normal_forms import NormalForm
 from proofs.methods.lemmas import Lemmas
-from proofs.trusted.certificate import render
+from proofs.trusted.files import render
 from proofs.trusted.verify import check
 
 LOGISTIC = ("x1 = r*x*(1 - x)",)

@@ -18,7 +18,8 @@ from proofs.methods.lemmas import Lemmas
 from proofs.methods.periodic import periodic_orbits
 from proofs.methods.rectangles import lemma, rectangles
 from proofs.methods.symbolic import SymbolicLemmas
-from proofs.trusted.certificate import Reader, render
+from proofs.trusted.certificate import Reader
+from proofs.trusted.files import render
 from proofs.trusted.kernel import trees
 from proofs.trusted.kernel.head import read_function
 from proofs.trusted.verify import check

@@ -12,7 +12,7 @@ from proofs.methods.cells import Region, function_of, invariant_cover
 from proofs.methods.periodic import periodic_orbits
 from proofs.methods.rectangles import Rectangles, _disjoint, lemma, rectangles
 from proofs.methods.symbolic import SymbolicLemmas
-from proofs.trusted.certificate import render
+from proofs.trusted.files import render
 from proofs.trusted.verify import check
 from tests.proofs.trusted.kernel.lemma_examples import henon
 

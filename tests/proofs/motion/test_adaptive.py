@@ -23,9 +23,9 @@ from proofs.stress.grazing import graze
 from proofs.trusted import flights as trusted
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import gap
-from proofs.trusted.flights import COVER_BITS
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.numbers import COVER_BITS
 from proofs.trusted.parameters import PAPER as FACTS
 from tests.calls import calls
 from tests.proofs.trusted.paper import reference

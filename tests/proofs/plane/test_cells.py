@@ -19,8 +19,8 @@ from proofs.plane.horseshoe import Sets, _pieces, propose
 from proofs.plane.summary import joined, merged
 from proofs.search.shifts import pieces
 from proofs.trusted.atlas import Region
+from proofs.trusted.kernel.loops import StableOrbit
 from proofs.trusted.paper.beyond.attractors import AtRest
-from proofs.trusted.paper.beyond.orbits import StableOrbit
 from proofs.trusted.paper.beyond.returning import ReturningMotion, StickingMotion
 from proofs.trusted.parameters import Place
 from proofs.trusted.verify import Rejected, check

@@ -14,7 +14,7 @@ from mpmath import mpf
 
 from intervals import Undecided
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.paper.staying import StayingSet
+from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verify import premises
 from tests.once import report

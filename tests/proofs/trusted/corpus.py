@@ -10,7 +10,8 @@ from fractions import Fraction
 from pathlib import Path
 from typing import NamedTuple
 
-from proofs.trusted.certificate import SCHEMA, parameters_to_json, render
+from proofs.trusted.certificate import SCHEMA
+from proofs.trusted.files import parameters_to_json, render
 from proofs.trusted.paper import find
 from proofs.trusted.parameters import Parameters
 from tests.proofs.trusted.edits import Document, lie

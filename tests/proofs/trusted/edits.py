@@ -6,7 +6,8 @@ from collections.abc import Callable, Iterator
 from fractions import Fraction
 from typing import Any, NamedTuple
 
-from proofs.trusted.certificate import FIELDS, render
+from proofs.trusted.certificate import FIELDS
+from proofs.trusted.files import render
 
 Document = dict[str, Any]
 Edit = Callable[[Document], None]

@@ -12,7 +12,8 @@ from fractions import Fraction
 from functools import partial
 from typing import Any
 
-from proofs.trusted.certificate import SCHEMA, Malformed, render
+from proofs.trusted.certificate import SCHEMA, Malformed
+from proofs.trusted.files import render
 from proofs.trusted.kernel.meter import Exhausted
 from proofs.trusted.rules import RULES
 from proofs.trusted.verify import Rejected, Report, check

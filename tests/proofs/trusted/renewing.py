@@ -4,7 +4,8 @@ import copy
 import json
 
 from proofs.shell.groups import produce
-from proofs.trusted.certificate import Malformed, Reader, render
+from proofs.trusted.certificate import Malformed, Reader
+from proofs.trusted.files import render
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.paper import GROUPS, find

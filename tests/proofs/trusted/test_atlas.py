@@ -13,10 +13,11 @@ from proofs.plane.store import opened
 from proofs.trusted.atlas import Region, area, check_atlas
 from proofs.trusted.certificate import SCHEMA as DOCUMENT
 from proofs.trusted.certificate import Malformed, texts
+from proofs.trusted.flights import PlasticMap
+from proofs.trusted.kernel.coverings import EntropyBound
 from proofs.trusted.kernel.meter import DEFAULT, Exhausted, metered
 from proofs.trusted.paper.beyond.singles import StableSingles
 from proofs.trusted.paper.branches import Branch
-from proofs.trusted.paper.s34_circle.entropy import EntropyBound
 from proofs.trusted.parameters import Place
 from proofs.trusted.questions import question
 from proofs.trusted.subjects import Oscillators, Systems
@@ -366,7 +367,7 @@ def test_more_sets_than_asked_for_are_enough_and_fewer_are_not():
     branches = tuple(Branch(at, (F(k), F(k) + F(1, 2)), 1, ((F(1), F(2)),)) for k in range(4))
     for count in (2, 3, 4):
         cells = tuple(branch.phases for branch in branches[:count])
-        found = [EntropyBound(at, branches, 1, F(count), cells)]
+        found = [EntropyBound(PlasticMap(at), branches, 1, F(count), cells)]
         verdicts = [question(f"entropy:{k}").verdict(found) for k in (2, 3, 4)]
         assert [x is Verdict.VERIFIED for x in verdicts] == [k <= count for k in (2, 3, 4)]
         assert question("horseshoe").verdict(found) is Verdict.VERIFIED

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from proofs.trusted.certificate import MAX_BYTES, render
+from proofs.trusted.certificate import MAX_BYTES
+from proofs.trusted.files import render
 from tests.proofs.trusted import corpus
 from tests.proofs.trusted.renewing import renewed
 

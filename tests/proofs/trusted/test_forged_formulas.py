@@ -9,7 +9,8 @@ from pathlib import Path
 import pytest
 
 from proofs.check import main
-from proofs.trusted.certificate import SCHEMA, Malformed, digest, render
+from proofs.trusted.certificate import SCHEMA, Malformed
+from proofs.trusted.files import digest, render
 from proofs.trusted.verify import Rejected, check
 from tests.proofs.trusted.renewing import renewed
 

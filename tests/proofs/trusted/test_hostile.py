@@ -12,7 +12,7 @@ import pytest
 
 from proofs.check import main
 from proofs.trusted.certificate import LEDGER, MANIFEST, Malformed, Reader
-from proofs.trusted.certificate import render as text_of
+from proofs.trusted.files import render as text_of
 from proofs.trusted.kernel.arithmetic import rational
 from proofs.trusted.kernel.meter import DEFAULT, METER, Exhausted, metered
 from proofs.trusted.manifest import check_ledger, check_manifest

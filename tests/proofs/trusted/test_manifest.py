@@ -11,7 +11,8 @@ from proofs.horseshoe import main
 from proofs.shell import manifest
 from proofs.shell.files import writing
 from proofs.shell.ledger import CLAIMS
-from proofs.trusted.certificate import MANIFEST, Malformed, digest
+from proofs.trusted.certificate import MANIFEST, Malformed
+from proofs.trusted.files import digest
 from proofs.trusted.kernel.meter import DEFAULT
 from proofs.trusted.manifest import check_ledger, check_manifest, command
 from proofs.trusted.parameters import PAPER

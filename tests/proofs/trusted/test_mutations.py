@@ -8,7 +8,7 @@ import pytest
 
 from proofs.check import check_file
 from proofs.trusted.certificate import MAX_BYTES, Malformed, parse
-from proofs.trusted.certificate import render as text_of
+from proofs.trusted.files import render as text_of
 from proofs.trusted.kernel.meter import DEFAULT
 from proofs.trusted.rules import RULES
 from proofs.trusted.verify import Rejected, check, premises

@@ -19,7 +19,7 @@ from proofs.trusted.flights import FirstImpact, Motion, phase_after
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.rules import RULES
-from proofs.trusted.slopes import meets
+from proofs.trusted.slopes import comes_to
 from tests.proofs.trusted.paper import reference
 from tests.proofs.trusted.paper.steps import apply as step
 from tests.proofs.trusted.paper.steps import exact
@@ -376,7 +376,7 @@ def test_avoids_counts_every_window():
 )
 def test_meets_mod_two_pi(phases, time, target, expected):
     ranges = [tuple(map(Fraction, pair)) for pair in (phases, time, target)]
-    assert meets(*ranges) is expected
+    assert comes_to(PAPER.place, *ranges) is expected
 
 
 @pytest.mark.slow
@@ -389,7 +389,7 @@ def test_meets_mod_two_pi(phases, time, target, expected):
 )
 def test_what_meets_is_never_missed(time, width, start, length):
     target = (start, min(start + length, Fraction(628, 100)))
-    if not meets((Fraction(0), Fraction(0)), (time, time + width), target):
+    if not comes_to(PAPER.place, (Fraction(0), Fraction(0)), (time, time + width), target):
         low, high = time - target[1], time + width - target[0]
         assert not any(low <= turns <= high for turns in TURNS)
 

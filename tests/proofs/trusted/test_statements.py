@@ -5,7 +5,12 @@ from fractions import Fraction
 
 import pytest
 
+from proofs.trusted.flights import PlasticMap
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.images import ImageArc, image_arc
+from proofs.trusted.kernel.laps import SlopeRange
+from proofs.trusted.kernel.moran import MoranRoot
+from proofs.trusted.kernel.staying import staying_set
 from proofs.trusted.numbers import (
     TURN,
     Phase,
@@ -17,11 +22,11 @@ from proofs.trusted.numbers import (
     show_range,
 )
 from proofs.trusted.paper import find
-from proofs.trusted.paper.s32_sets.moran import Digits, MoranRoot, NoGap
-from proofs.trusted.paper.staying import staying_set
+from proofs.trusted.paper.s32_sets.moran import Digits, NoGap
 from proofs.trusted.parameters import PAPER, Parameters
-from proofs.trusted.slopes import Avoids, ImageArc, Impact, SlopeRange, image_arc
+from proofs.trusted.slopes import Avoids, Impact
 from proofs.trusted.verdicts import Verdict
+from tests.proofs.trusted.paper.steps import moved_to
 
 VERIFIED, REFUTED, UNDECIDED = Verdict.VERIFIED, Verdict.REFUTED, Verdict.UNDECIDED
 CONDITIONAL = Verdict.CONDITIONAL
@@ -44,7 +49,7 @@ def slopes(domain, least=STEEP[0], greatest=STEEP[1], images=("1.1", "1.33"), at
     values = span(*least), span(*greatest)
     piece = min(x for x, _ in values), max(x for _, x in values)
     ends = tuple(Phase(*(span(*x) if isinstance(x, tuple) else span(x))) for x in images)
-    return SlopeRange(at, tuple(map(Fraction, domain)), values, ends, (piece,))
+    return SlopeRange(PlasticMap(at), tuple(map(Fraction, domain)), values, ends, (piece,))
 
 
 def both(least=STEEP[0], greatest=STEEP[1], at=HERE):
@@ -56,7 +61,7 @@ def point(phase, slope=("5", "5"), image=("3", "3"), at=HERE):
 
 
 def avoids(gap=("1.15", "1.27"), target=("1.11", "1.32"), at=HERE):
-    return Avoids(at, phases(*gap), phases(*target))
+    return Avoids(PlasticMap(at), phases(*gap), phases(*target))
 
 
 def verdict(claim, found, of=PAPER):
@@ -82,7 +87,7 @@ def test_conclusions_elsewhere_refute_nothing(claim):
     steep = {"H2": ("6", "6")}.get(claim, ("-1", "-1") if claim == "H3" else ("1", "1"))
     found = point("1.13", steep, ("1.12", "1.13"))
     assert verdict(claim, [found]) is REFUTED
-    assert verdict(claim, [replace(found, at=ELSEWHERE)]) is UNDECIDED
+    assert verdict(claim, [moved_to(found, ELSEWHERE)]) is UNDECIDED
 
 
 # -- H1, H2, H3, H6: slopes ------------------------------------------------------------------------
@@ -179,7 +184,7 @@ def test_gap_points(phase, image, expected):
 def test_avoiding_covers_gap_and_interval(gap, target, avoided):
     found = avoids(gap, target)
     assert verdict("H4", [found]) is (VERIFIED if avoided else UNDECIDED)
-    assert verdict("H4", [replace(found, at=ELSEWHERE)]) is UNDECIDED
+    assert verdict("H4", [moved_to(found, ELSEWHERE)]) is UNDECIDED
     if not avoided:
         assert horseshoe(*both(), found) is None
 
@@ -273,7 +278,7 @@ def test_covering_needs_an_interval_made_of_both_and_the_gap():
 @pytest.mark.parametrize(
     ("left", "right"),
     [
-        (both()[0], replace(both()[1], at=ELSEWHERE)),
+        (both()[0], moved_to(both()[1], ELSEWHERE)),
         (both()[0], both()[0]),
         both(("0.9", "0.9")),
         both(("1", "1")),
@@ -307,7 +312,9 @@ def test_an_interval_of_phases_is_canonical(low, high):
 
 
 def test_the_arc_s_hull_is_not_what_it_covers():
-    arc = ImageArc(HERE, phases("1.11", "1.15"), Phase(*span("6.2", "6.21")), Phase(*span("1.33")))
+    arc = ImageArc(
+        PlasticMap(HERE), phases("1.11", "1.15"), Phase(*span("6.2", "6.21")), Phase(*span("1.33"))
+    )
     assert not arc.is_interval and not arc.covers(span("1.11", "1.34"))
     assert arc.covers(span("1.11", "1.32"))  # around the circle; a horseshoe asks for an interval
     assert arc.misses(span("1.34", "6.1")) and not arc.misses(span("1.3", "6.1"))
@@ -329,7 +336,7 @@ def test_the_arc_s_hull_is_not_what_it_covers():
 )
 def test_slopes_are_taken_at_the_ends_named(ends, known):
     whole = SlopeRange(
-        HERE,
+        PlasticMap(HERE),
         tuple(map(Fraction, ends)),
         (span("4.5", "4.6"),) * len(ends),
         (Phase(*span("1.1")),) * len(ends),
@@ -340,7 +347,7 @@ def test_slopes_are_taken_at_the_ends_named(ends, known):
 
 def test_extremes_lie_between_pieces_and_points():
     found = SlopeRange(
-        HERE,
+        PlasticMap(HERE),
         (Fraction("1.11"), Fraction("1.13"), Fraction("1.15"), Fraction("1.2")),
         (span("4.7", "4.8"), span("5.2", "5.3"), span("6.1", "6.2"), span("9", "9")),
         (Phase(*span("1")),) * 4,

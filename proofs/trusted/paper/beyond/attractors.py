@@ -11,12 +11,12 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.coverings import EntropyBound
+from proofs.trusted.kernel.loops import StableOrbit
+from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import between
-from proofs.trusted.paper.beyond.orbits import StableOrbit
 from proofs.trusted.paper.beyond.returning import StickingMotion, SticksOnce
-from proofs.trusted.paper.s34_circle.entropy import EntropyBound
 from proofs.trusted.paper.s34_circle.landing import Separation
-from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 

@@ -26,7 +26,7 @@ from typing import Any
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import Launch, clock, gap, sincos
-from proofs.trusted.flights import COVER_BITS, read_times
+from proofs.trusted.flights import read_times
 from proofs.trusted.kernel.arcs import Arc, an_arc
 from proofs.trusted.kernel.arithmetic import Dual, Enclosure, Unproved, pi, rational
 from proofs.trusted.kernel.conclusion import Conclusion
@@ -35,7 +35,7 @@ from proofs.trusted.kernel.enclose import Box, centre_of, integer, sqrt
 from proofs.trusted.kernel.formulas import Formulas, read_formulas
 from proofs.trusted.kernel.gaps import Gap, falls, first_windows
 from proofs.trusted.kernel.zeros import Piece
-from proofs.trusted.numbers import Range, ceil_text, show, show_range, within
+from proofs.trusted.numbers import COVER_BITS, Range, ceil_text, show, show_range, within
 
 ETA, P, TIME = range(3)  # the variables of a curve's formulas, in the order of the alphabet
 FOLD, FLIP = "fold", "flip"

@@ -8,9 +8,14 @@ from fractions import Fraction
 from math import prod
 
 from proofs.trusted.certificate import Reader
+from proofs.trusted.flights import PlasticMap
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.images import image_range, inside
+from proofs.trusted.kernel.laps import SlopeRange
+from proofs.trusted.kernel.loops import MOST_CELLS, StableOrbit, led
+from proofs.trusted.kernel.staying import read_part
 from proofs.trusted.numbers import (
     TURN,
     Range,
@@ -19,12 +24,7 @@ from proofs.trusted.numbers import (
     show,
     show_range,
 )
-from proofs.trusted.paper.beyond.orbits import StableOrbit, led
 from proofs.trusted.paper.s34_circle.landing import Lands, NeverImpacts, Separation
-from proofs.trusted.paper.staying import read_part
-from proofs.trusted.slopes import SlopeRange, image_range, inside
-
-_MOST_IMPACTS = 200
 
 
 def _named(cells: Sequence[Range]) -> str:
@@ -53,7 +53,7 @@ class StickingMotion(Conclusion):
 
     def __post_init__(self) -> None:
         sticking = _earliest(self.arc, self.landing), self.arc.phase[0]
-        if not self.cells and not inside(self.arc.arrival, sticking):
+        if not self.cells and not inside(PlasticMap(self.arc.at), self.arc.arrival, sticking):
             raise Unproved("the flight after the separation does not end where the mass sticks")
 
     at = About("arc")
@@ -97,7 +97,7 @@ class ReturningMotion(Conclusion):
         if not self.beyond[0] <= self.arc.phase[1] <= self.beyond[1]:
             raise Unproved("the launches after the arc are not known from its end on")
         back = _earliest(self.arc, self.landing), self.beyond[1]
-        if not self.cells and not inside(self.arc.arrival, back):
+        if not self.cells and not inside(PlasticMap(self.arc.at), self.arc.arrival, back):
             raise Unproved("the flight after the separation does not end there")
         if back[1] - back[0] >= TURN or not 0 <= self.contraction < 1:
             raise Unproved("f is not proved to contract around the loop")
@@ -199,7 +199,8 @@ def sticks_once(
 def _ends(images: Sequence[Range], end: StableOrbit | NeverImpacts) -> bool:
     """Whether impacts are where, from then on, the mass never sticks."""
     sets = end.cells if isinstance(end, StableOrbit) else [end.phases]
-    return all(any(inside(image, each) for each in sets) for image in images)
+    f = PlasticMap(end.at)
+    return all(any(inside(f, image, each) for each in sets) for image in images)
 
 
 def sticking_motion(
@@ -228,7 +229,7 @@ def sticking_motion(
     first = [arc.arrival, *(image_range(each) for each in (beyond,) if each is not None)]
     images = led(first, parts)
     back = _earliest(arc, landing), arc.phase[0] if beyond is None else beyond.ends[1]
-    if not all(inside(image, back) for image in images):
+    if not all(inside(PlasticMap(arc.at), image, back) for image in images):
         raise Unproved("the last impact is not proved to be where the mass sticks")
     cells = tuple(part.ends for part in parts)
     if beyond is None:
@@ -261,7 +262,7 @@ def prove_sticking_motion(
     separation_of, cells_of, beyond_of, landing_of = reader.fields(
         "separation", "cells", "beyond", "landing"
     )
-    parts = [read_part(context, cell) for cell in cells_of.items(0, _MOST_IMPACTS)]
+    parts = [read_part(context, cell) for cell in cells_of.items(0, MOST_CELLS)]
     beyond = None if beyond_of.is_null() else read_part(context, beyond_of)
     arc = context.step(separation_of, Separation)
     landing = None if landing_of.is_null() else context.step(landing_of, Conclusion)

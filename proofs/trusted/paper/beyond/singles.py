@@ -46,13 +46,12 @@ from typing import Any, NamedTuple
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import Launch, clock, gap, launch_acceleration
-from proofs.trusted.flights import COVER_BITS
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, pi
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import integer, sqrt
 from proofs.trusted.kernel.gaps import first_windows
-from proofs.trusted.numbers import Range, increasing
+from proofs.trusted.numbers import COVER_BITS, Range, increasing
 from proofs.trusted.paper.beyond.grazing import ratio
 from proofs.trusted.parameters import Place
 

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import About, Conclusion
+from proofs.trusted.kernel.moran import MoranRoot
 from proofs.trusted.numbers import Phases, ceil_text, decimals, floor_text, hull, show_range, within
 from proofs.trusted.paper.s32_sets.invariant import InvariantSet, staying
-from proofs.trusted.paper.s32_sets.moran import MoranRoot, NoGap
+from proofs.trusted.paper.s32_sets.moran import NoGap
 from proofs.trusted.paper.s32_sets.repeller import Repeller
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided

@@ -6,11 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
-from proofs.trusted.flights import bits_for
-from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, exp, log
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.numbers import Range, show, show_range
-from proofs.trusted.paper.s32_sets.moran import MoranRoot, NoGap
+from proofs.trusted.kernel.elementary import exp, log
+from proofs.trusted.kernel.moran import MoranRoot
+from proofs.trusted.numbers import Range, bits_for, show, show_range
+from proofs.trusted.paper.s32_sets.moran import NoGap
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 

@@ -7,9 +7,9 @@ from functools import cached_property
 from itertools import product
 
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.moran import MoranRoot
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s32_sets.linear import ExactMeasure, LinearSet, power
-from proofs.trusted.paper.s32_sets.moran import MoranRoot
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 

@@ -5,51 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from proofs.trusted.certificate import Reader
-from proofs.trusted.flights import bits_for
-from proofs.trusted.kernel.arithmetic import Unproved, exp, log
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.kernel.context import Context
-from proofs.trusted.numbers import Range, between, ceil_text, floor_text, show
+from proofs.trusted.kernel.moran import MoranRoot
+from proofs.trusted.numbers import Range, between, show
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
-
-
-@dataclass(frozen=True)
-class MoranRoot(Conclusion):
-    """The one root s > 0 of ratios[0]^s + ratios[1]^s = 1 lies in `root`."""
-
-    ratios: Range
-    root: Range
-
-    @property
-    def sentence(self) -> str:
-        return (
-            f"the equation ({show(self.ratios[0])})^s + ({show(self.ratios[1])})^s = 1 has exactly "
-            f"one root s > 0, in {between(self.root, 12)}."
-        )
-
-    @property
-    def brief(self) -> str:
-        return f"{floor_text(self.root[0])} <= s_0 <= {ceil_text(self.root[1])}"
-
-
-def moran_root(context: Context, reader: Reader) -> MoranRoot:
-    """Rule `moran-root`: {ratios in (0, 1), root: [l, u]}, 0 < l < u.
-
-    Hypothesis: F(l) > 0 > F(u), F(s) = r0^s + r1^s - 1. Conclusion: `MoranRoot`. Proof. F decreases
-    from 1 to -1: it has one root, in between.
-    """
-    ratios_of, root_of = reader.fields("ratios", "root")
-    (first, second), root = ratios_of.numbers(2, 2), root_of.range()
-    if not (0 < first < 1 and 0 < second < 1 and root[0] > 0):
-        raise Unproved("the ratios must lie in (0, 1) and the root's bracket be positive")
-    bits = bits_for(root)
-    one, other = log(first, bits), log(second, bits)
-    low, high = (exp(one * s) + exp(other * s) - 1 for s in root)
-    if low.lo <= 0 or high.hi >= 0:
-        raise Unproved("the bracket of the root does not have the signs +, -")
-    return MoranRoot((first, second), root)
 
 
 @dataclass(frozen=True)

@@ -8,10 +8,11 @@ from fractions import Fraction
 from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.kernel.arithmetic import Unproved, log
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.complexes import BITS, Ellipse
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.elementary import log
 from proofs.trusted.kernel.enclose import integer
 from proofs.trusted.kernel.transfer import Collocation, Growth, Trial, growth
 from proofs.trusted.numbers import (

@@ -12,15 +12,15 @@ from fractions import Fraction
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.conclusion import Conclusion, place_of
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.horseshoe import Horseshoe
+from proofs.trusted.kernel.laps import signed
 from proofs.trusted.kernel.rates import Rates, rates, size
 from proofs.trusted.kernel.rectangles import Rectangle, require_together
 from proofs.trusted.numbers import Phases, Range, ceil_text, floor_text, hull, show, show_range
 from proofs.trusted.paper.s33_restitution.rectangles import Blocks, Strips, sets_of
 from proofs.trusted.parameters import Place
-from proofs.trusted.slopes import signed
 
 NAMES = "phi", "gamma"
 
@@ -76,13 +76,6 @@ def strips_of(maps: Sequence[Rectangle]) -> Strips:
     if heights != others:
         raise Unproved("the rectangles are about different velocities")
     return Strips(Phases(*left), Phases(*right), heights)
-
-
-def place_of(conclusion: Conclusion) -> Place:
-    """Return the oscillators; Unproved where it is about another map."""
-    if conclusion.place is None:
-        raise Unproved("a map that is not the oscillator's")
-    return conclusion.place
 
 
 # -- horseshoes ------------------------------------------------------------------------------------

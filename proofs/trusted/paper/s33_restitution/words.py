@@ -8,14 +8,14 @@ from itertools import product
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.conclusion import Conclusion, place_of
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.horseshoe import read_rectangles
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.kernel.rates import Rates, rates
 from proofs.trusted.kernel.rectangles import Rectangle, crossing, require_together
 from proofs.trusted.kernel.words import BarredWord
-from proofs.trusted.paper.s33_restitution.horseshoes import NAMES, place_of, strips_of
+from proofs.trusted.paper.s33_restitution.horseshoes import NAMES, strips_of
 from proofs.trusted.paper.s33_restitution.rectangles import Strips
 from proofs.trusted.parameters import Place
 

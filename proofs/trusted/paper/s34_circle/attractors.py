@@ -11,10 +11,9 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.conclusion import Conclusion, place_of
 from proofs.trusted.kernel.stable import StableCycle
 from proofs.trusted.numbers import Range, between, common, hull, show_range, within
-from proofs.trusted.paper.s33_restitution.horseshoes import place_of
 from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided

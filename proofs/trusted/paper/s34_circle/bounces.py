@@ -13,10 +13,10 @@ from fractions import Fraction
 from functools import partial
 
 from proofs.trusted.equations import launch_acceleration
-from proofs.trusted.flights import COVER_BITS, Motion
+from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.gaps import Gap, brackets
-from proofs.trusted.numbers import Range
+from proofs.trusted.numbers import COVER_BITS, Range
 from proofs.trusted.parameters import Place
 
 State = tuple[Range, Range]  # phases and relative speeds of impacts

@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 
 from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import (
     hull,
     within,
@@ -19,7 +20,6 @@ from proofs.trusted.paper.s34_circle.absorption import Absorption, Sink
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
 from proofs.trusted.paper.s34_circle.other_sets import PRINTED
 from proofs.trusted.paper.s34_circle.transients import long_transients
-from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.verdicts import Decide, Decision, Found, Row, Verdict, decided, undecided
 

@@ -11,10 +11,10 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.coverings import read_image, read_images
 from proofs.trusted.kernel.enclose import integer
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range, show, within
-from proofs.trusted.paper.branches import read_image, read_images
 from proofs.trusted.paper.s34_circle.expansion import Expansion
 from proofs.trusted.paper.s34_circle.grazing import Grazing
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts

@@ -9,15 +9,7 @@ from typing import Any
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import Launch, launch_acceleration
-from proofs.trusted.flights import (
-    FirstImpact,
-    Motion,
-    bits_for,
-    bracketed,
-    lifted,
-    read_times,
-    whole_turns,
-)
+from proofs.trusted.flights import FirstImpact, Motion, bracketed, lifted, read_times, whole_turns
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, pi, rational
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
@@ -28,6 +20,7 @@ from proofs.trusted.numbers import (
     Phases,
     Range,
     between,
+    bits_for,
     floor_text,
     increasing,
     show_range,

@@ -8,13 +8,13 @@ from fractions import Fraction
 from functools import cache
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.kernel.arithmetic import Unproved, log
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.coverings import EntropyBound, Weighted, read_images
+from proofs.trusted.kernel.elementary import log
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range, between, show, within
-from proofs.trusted.paper.branches import read_images
-from proofs.trusted.paper.s34_circle.entropy import EntropyBound, Weighted
 from proofs.trusted.paper.s34_circle.pieces import Known, Pieces
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Phases, Range, show_range
-from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.slopes import Impact
 from proofs.trusted.verdicts import Decide, Decision, Found, Row, Verdict, decided, undecided

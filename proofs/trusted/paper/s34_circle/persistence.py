@@ -13,13 +13,13 @@ from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import closing
-from proofs.trusted.flights import Motion, bits_for, lifted
+from proofs.trusted.flights import Motion, lifted
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.differential import Differential
 from proofs.trusted.kernel.stable import StableCycle
-from proofs.trusted.numbers import Range, between, ceil_text, show, show_range, within
+from proofs.trusted.numbers import Range, between, bits_for, ceil_text, show, show_range, within
 from proofs.trusted.paper.s34_circle.bounces import State, bounced, settle
 from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.parameters import PAPER, Parameters, Place

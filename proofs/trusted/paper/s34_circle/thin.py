@@ -9,10 +9,10 @@ from itertools import product
 
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import About, Conclusion
+from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Range, decimals, show_range, within
 from proofs.trusted.paper.s32_sets.repeller import Repeller
 from proofs.trusted.paper.s34_circle.other_sets import PRINTED
-from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 

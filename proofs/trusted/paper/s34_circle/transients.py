@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import About, Conclusion
+from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Phases, floor_text, show, show_range, within
 from proofs.trusted.paper.s34_circle.absorption import Absorption
 from proofs.trusted.paper.s34_circle.landing import Separation
-from proofs.trusted.paper.staying import StayingSet
 
 
 @dataclass(frozen=True)

@@ -52,11 +52,11 @@ from typing import Any
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import Clock, clock, launch_acceleration, sincos, slope
-from proofs.trusted.flights import COVER_BITS, MAX_BITS, FirstImpact, Motion
+from proofs.trusted.flights import FirstImpact, Motion
 from proofs.trusted.kernel.arithmetic import Dual, Enclosure, Unproved, pi, rational
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.numbers import TURN, Range, between, show, within
+from proofs.trusted.numbers import COVER_BITS, MAX_BITS, TURN, Range, between, show, within
 from proofs.trusted.parameters import Place
 
 _MOST_PERIODS = 10**6

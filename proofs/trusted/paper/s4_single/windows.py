@@ -9,12 +9,11 @@ from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import clock
-from proofs.trusted.flights import COVER_BITS
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, pi, rational
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
-from proofs.trusted.numbers import Range, between, ceil_text, floor_text, show
+from proofs.trusted.numbers import COVER_BITS, Range, between, ceil_text, floor_text, show
 from proofs.trusted.paper.s4_single.orbits import (
     FLIP,
     SADDLE,

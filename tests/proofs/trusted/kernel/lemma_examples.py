@@ -6,9 +6,10 @@ from functools import cache
 from proofs.methods.arcs import follow, thin
 from proofs.methods.lemmas import Lemmas
 from proofs.methods.symbolic import SymbolicLemmas
-from proofs.trusted.certificate import render
 from proofs.trusted.equations import AT_LAUNCH, clock, gap, launch, launch_acceleration, slope
+from proofs.trusted.files import render
 from proofs.trusted.kernel.values import Equal, Series
+from tests.proofs.trusted.kernel.lines import Lines
 from tests.proofs.trusted.kernel.systems import BALL, DAMPED, FAR, RATTLE, RATTLE_BACK, RESTING
 
 LOGISTIC = (["x"], ["5*x*(1 - x)"])
@@ -286,6 +287,7 @@ def outcomes():
 
 EXAMPLES = {
     "outcomes": outcomes,
+    "lines": Lines,
     "rectangles": rectangles,
     "ball": ball,
     "rattle": rattle,

@@ -7,7 +7,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from proofs.trusted.certificate import Malformed, Reader, render
+from proofs.trusted.certificate import Malformed, Reader
+from proofs.trusted.files import render
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.cycle import _stability, periodic_orbit

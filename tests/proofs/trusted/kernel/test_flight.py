@@ -15,7 +15,8 @@ import numpy as np
 import pytest
 
 from proofs import Oscillator
-from proofs.trusted.certificate import Malformed, Reader, render
+from proofs.trusted.certificate import Malformed, Reader
+from proofs.trusted.files import render
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.enclose import enclosed, point_box
 from proofs.trusted.kernel.maps import read_map
@@ -376,7 +377,7 @@ def test_a_horseshoe_of_the_ball_needs_nothing_of_the_paper():
     assert not made.stderr
     cone, entropy, orbit = made.stdout.splitlines()
     assert "conjugate to the two-sided shift" in cone
-    assert "at least log(2)/1, which lies in [0.69314718" in entropy
+    assert "at least log(2), which lies in [0.69314718" in entropy
     assert "exactly one periodic orbit of least period 2" in orbit
     assert "(`phi` having increased by 10 periods); it is a saddle" in orbit
 

@@ -16,7 +16,8 @@ import pytest
 import sympy
 
 from proofs import System
-from proofs.trusted.certificate import SCHEMA, Malformed, Reader, render
+from proofs.trusted.certificate import SCHEMA, Malformed, Reader
+from proofs.trusted.files import render
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
 from proofs.trusted.kernel.enclose import centre_of, enclosed, point_box
 from proofs.trusted.kernel.lohner import Solutions, orthogonal

@@ -7,7 +7,8 @@ from math import cos, sin
 
 import pytest
 
-from proofs.trusted.certificate import Malformed, Reader, render
+from proofs.trusted.certificate import Malformed, Reader
+from proofs.trusted.files import render
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import enclosed

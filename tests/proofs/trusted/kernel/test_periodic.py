@@ -15,7 +15,8 @@ from hypothesis import strategies as st
 
 from intervals import Undecided
 from proofs.methods.symbolic import SymbolicLemmas
-from proofs.trusted.certificate import Malformed, Reader, render
+from proofs.trusted.certificate import Malformed, Reader
+from proofs.trusted.files import render
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.contractor import Contractor, Empty
 from proofs.trusted.kernel.head import read_function

@@ -7,8 +7,9 @@ import pytest
 from mpmath import chebyt, mp, mpc, mpf
 
 from proofs.trusted.kernel import arithmetic
-from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, log_of, rational, sincos_near_zero
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational, sincos_near_zero
 from proofs.trusted.kernel.complexes import BITS, Complex, Ellipse
+from proofs.trusted.kernel.elementary import log_of
 from proofs.trusted.kernel.transfer import Growth, Series
 
 TINY = mpf(2) ** -40

@@ -1,6 +1,7 @@
 """Steps of proofs, derived as the checker does, and numbers of `reference` as rationals."""
 
 import copy
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 
@@ -8,6 +9,7 @@ from mpmath import mp
 
 from proofs.search.evidence import Evidence
 from proofs.trusted.certificate import Reader
+from proofs.trusted.flights import PlasticMap
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.rules import find_rule
@@ -67,3 +69,9 @@ def edited(steps, path, change):
         place = place[key]
     place[last] = change(place[last])
     return result
+
+
+def moved_to(found, place):
+    """A conclusion as if it were about other oscillators."""
+    about_map = "function" in getattr(found, "__dataclass_fields__", ())
+    return replace(found, **({"function": PlasticMap(place)} if about_map else {"at": place}))

@@ -16,21 +16,14 @@ from proofs.motion.many import next_impacts
 from proofs.plane.flights import Flights
 from proofs.plane.horseshoe import propose
 from proofs.plane.settling import settles, stays_stable, sticks
-from proofs.trusted.certificate import (
-    FIELDS,
-    Malformed,
-    Reader,
-    parameters_from_json,
-    parse,
-    texts,
-)
+from proofs.trusted.certificate import FIELDS, Malformed, Reader, parameters_from_json, parse, texts
 from proofs.trusted.flights import FirstImpact, Motion, first_impact
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.coverings import EntropyBound
 from proofs.trusted.kernel.head import read_function
 from proofs.trusted.paper.beyond.attractors import AllStick, AtRest, Leaves, NeverSticks
 from proofs.trusted.paper.beyond.returning import ReturningMotion, StickingMotion
-from proofs.trusted.paper.s34_circle.entropy import EntropyBound
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.rules import find_rule
 from proofs.trusted.slopes import avoids

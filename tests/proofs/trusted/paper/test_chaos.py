@@ -19,21 +19,22 @@ from proofs.motion.witness import HORIZON
 from proofs.search.s34_chaos import prove, prove_entropy
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import Malformed
-from proofs.trusted.flights import Motion
+from proofs.trusted.flights import Motion, PlasticMap
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.coverings import EntropyBound
+from proofs.trusted.kernel.laps import SlopeRange
+from proofs.trusted.kernel.staying import StayingSet, staying_set
 from proofs.trusted.numbers import Phase, Phases
 from proofs.trusted.paper import find
 from proofs.trusted.paper.branches import Branch
-from proofs.trusted.paper.s34_circle.entropy import EntropyBound
 from proofs.trusted.paper.s34_circle.other_sets import PRINTED
-from proofs.trusted.paper.staying import StayingSet, staying_set
 from proofs.trusted.parameters import PAPER
-from proofs.trusted.slopes import Avoids, Impact, SlopeRange
+from proofs.trusted.slopes import Avoids, Impact
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.windows import BITS, Meetings
 from tests.oracles.judge import oracle
 from tests.proofs.trusted.paper import reference
-from tests.proofs.trusted.paper.steps import apply, derive, evidence, known_of
+from tests.proofs.trusted.paper.steps import apply, derive, evidence, known_of, moved_to
 
 ETA, NU = 0.2121, -0.2
 SYSTEM = System(PAPER.eta, PAPER.nu)
@@ -127,12 +128,12 @@ def cell(low, high, bottom, top, slope=5):
     images = (Phase(F(bottom), F(bottom)), Phase(F(top), F(top)))
     bounds = (F(slope), F(slope))
     images = images if slope > 0 else images[::-1]
-    return SlopeRange(AT, (F(low), F(high)), (bounds,) * 2, images, (bounds,))
+    return SlopeRange(PlasticMap(AT), (F(low), F(high)), (bounds,) * 2, images, (bounds,))
 
 
 def made(*cells, region=(PRINTED,)):
     """What stays in a region; all of it is a gap, too."""
-    gaps = [Avoids(AT, Phases(part[0], part[1]), Phases(F(0), F(6))) for part in region]
+    gaps = [Avoids(PlasticMap(AT), Phases(part[0], part[1]), Phases(F(0), F(6))) for part in region]
     return staying_set(region, cells, gaps)
 
 
@@ -252,17 +253,17 @@ def test_cells_and_gaps_must_cover_the_region():
     left, right = (F("1.32"), F("1.4")), (F("1.4"), F("1.48"))
     for ends, gap in ((left, right), (right, left)):
         one = (cell(*ends, "1.3", "1.5"),)
-        assert staying_set((PRINTED,), one, (Avoids(AT, Phases(*gap), PRINTED),)).cells
+        assert staying_set((PRINTED,), one, (Avoids(PlasticMap(AT), Phases(*gap), PRINTED),)).cells
         short = Phases(gap[0] + F(1, 1000), gap[1] - F(1, 1000))
-        less = Avoids(AT, Phases(*gap), Phases(F("1.33"), F("1.48")))
-        for gaps in ((), (Avoids(AT, short, PRINTED),), (less,)):
+        less = Avoids(PlasticMap(AT), Phases(*gap), Phases(F("1.33"), F("1.48")))
+        for gaps in ((), (Avoids(PlasticMap(AT), short, PRINTED),), (less,)):
             with pytest.raises(Unproved, match=r"cover|avoid"):
                 staying_set((PRINTED,), one, gaps)
 
 
 def test_hypotheses_about_different_oscillators_are_refused():
-    other = replace(cell(*B, "1.3", "1.35"), at=replace(PAPER, eta=F("0.2122")).place)
-    with pytest.raises(Unproved, match="different oscillators"):
+    other = moved_to(cell(*B, "1.3", "1.35"), replace(PAPER, eta=F("0.2122")).place)
+    with pytest.raises(Unproved, match="different maps"):
         made(SWAP[0], other)
 
 
@@ -305,8 +306,8 @@ def test_another_set_is_decided_by_what_stays_in_the_printed_interval(claim, one
     assert verdict(replace(full, region=(wider,))) is Verdict.UNDECIDED
     assert verdict(replace(swap, region=(wider,))) is Verdict.UNDECIDED
     elsewhere = replace(PAPER, eta=F("0.2122"))
-    assert verdict(replace(swap, at=elsewhere.place)) is Verdict.UNDECIDED
-    there = find(claim).decide(elsewhere, [replace(swap, at=elsewhere.place)])
+    assert verdict(moved_to(swap, elsewhere.place)) is Verdict.UNDECIDED
+    there = find(claim).decide(elsewhere, [moved_to(swap, elsewhere.place)])
     assert there.verdict is Verdict.UNDECIDED and "printed" in there.why
 
 
@@ -458,7 +459,7 @@ def test_a_state_has_no_part_in_a_branch_beside_it(small, graphs):
 
 def test_g9_without_enough_growth_is_undecided():
     branch = Branch(AT, (F(1), F("1.1")), 4, ((F(24), F(25)),))
-    weak = EntropyBound(AT, (branch,), 1, F("1.9"))
+    weak = EntropyBound(PlasticMap(AT), (branch,), 1, F("1.9"))
     undecided = find("G9").decide(PAPER, [weak])
     assert undecided.verdict is Verdict.UNDECIDED
     assert {*undecided.quantities} == {"entropy_lower_bound"}  # the entropy is more, see G17

@@ -20,7 +20,9 @@ from proofs.search import s34_circle as circle
 from proofs.search.steps import Prover
 from proofs.shell.groups import decide, wanted
 from proofs.trusted.certificate import Malformed
+from proofs.trusted.flights import PlasticMap
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Phase, Phases
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s34_circle.absorption import UNIT, Absorption, Sink
@@ -28,14 +30,22 @@ from proofs.trusted.paper.s34_circle.cells import Cell, Inverse, _links, absorbe
 from proofs.trusted.paper.s34_circle.circle import ROWS
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
 from proofs.trusted.paper.s34_circle.transients import long_transients
-from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
 from tests.oracles.circle import impacts_before_rest
 from tests.oracles.judge import oracle
 from tests.oracles.motion import Impact, flight
 from tests.proofs.trusted.paper import reference
-from tests.proofs.trusted.paper.steps import add, apply, derive, edited, evidence, known_of, texts
+from tests.proofs.trusted.paper.steps import (
+    add,
+    apply,
+    derive,
+    edited,
+    evidence,
+    known_of,
+    moved_to,
+    texts,
+)
 from tests.proofs.trusted.paper.test_edits import coarse
 from tests.proofs.trusted.paper.test_edits import derived as conclusions
 
@@ -543,7 +553,9 @@ def shift(low="1.1", high="1.49"):
     step = (high - low) / 5
     cells = tuple(Phases(low + 2 * i * step, low + (2 * i + 1) * step) for i in range(3))
     slopes, onward = ((Fraction(5), Fraction(7)),) * 3, ((0, 1, 2),) * 3
-    return StayingSet(PAPER.place, (Phases(low, high),), cells, slopes, onward, whole=True)
+    return StayingSet(
+        PlasticMap(PAPER.place), (Phases(low, high),), cells, slopes, onward, whole=True
+    )
 
 
 @pytest.mark.parametrize(
@@ -570,7 +582,7 @@ def test_a_shift_where_the_mass_sticks_says_nothing(arc):
     stuck = replace(arc, start=Phase(Fraction("1.4"), Fraction("1.41")))
     with pytest.raises(Unproved, match="before the sticking arc"):
         long_transients(shift(), followed(stuck, (4, 1), ("1.2", "1.3", 3)))
-    elsewhere = replace(shift(), at=replace(PAPER, nu=Fraction("-0.3")).place)
+    elsewhere = moved_to(shift(), replace(PAPER, nu=Fraction("-0.3")).place)
     with pytest.raises(Unproved, match="different oscillators"):
         long_transients(elsewhere, followed(arc, (4, 1), ("1.2", "1.3", 3)))
 

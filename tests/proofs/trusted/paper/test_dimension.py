@@ -7,18 +7,19 @@ import pytest
 
 from proofs.shell import groups
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.itineraries import Itinerary
+from proofs.trusted.kernel.moran import MoranRoot
+from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Phases
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s32_sets.dimension import FULL, WITHOUT_000, StayingDimension
-from proofs.trusted.paper.s32_sets.invariant import Itinerary, staying
-from proofs.trusted.paper.s32_sets.moran import MoranRoot
+from proofs.trusted.paper.s32_sets.invariant import staying
 from proofs.trusted.paper.s32_sets.repeller import Repeller
-from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Found, Verdict
 from proofs.trusted.verify import check
 from tests.proofs.trusted.paper import periodic_dimension
-from tests.proofs.trusted.paper.steps import evidence
+from tests.proofs.trusted.paper.steps import evidence, moved_to
 
 DIGITS = 5
 SLOPES = (Fraction(2), Fraction(9))
@@ -113,7 +114,7 @@ def test_nothing_is_decided_without(kind):
     assert decide(found).verdict is Verdict.UNDECIDED
     elsewhere = replace(PAPER, nu=Fraction("-0.21")).place
     if kind is not MoranRoot:
-        moved = [replace(x, at=elsewhere) if isinstance(x, kind) else x for x in conclusions()]
+        moved = [moved_to(x, elsewhere) if isinstance(x, kind) else x for x in conclusions()]
         assert decide(moved).verdict is Verdict.UNDECIDED
 
 

@@ -13,7 +13,7 @@ import pytest
 from mpmath import mp, mpf
 
 from proofs.search.s2_foundations import prove
-from proofs.trusted.certificate import render
+from proofs.trusted.files import render
 from proofs.trusted.numbers import Phases
 from proofs.trusted.paper import find
 from proofs.trusted.paper import s2_foundations as eq

@@ -14,8 +14,8 @@ from flint import arb, ctx
 from proofs import horseshoe
 from proofs.shell import runner
 from proofs.shell.groups import produce
+from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.paper import GROUPS
-from proofs.trusted.paper.staying import StayingSet
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import check, premises

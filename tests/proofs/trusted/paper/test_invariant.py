@@ -9,25 +9,23 @@ from fractions import Fraction
 import pytest
 
 from proofs.search.s32_sets import prove
-from proofs.trusted.certificate import Malformed, Reader, render
+from proofs.trusted.certificate import Malformed, Reader
+from proofs.trusted.files import render
+from proofs.trusted.flights import PlasticMap
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.itineraries import Itinerary, follow
+from proofs.trusted.kernel.laps import SlopeRange
 from proofs.trusted.kernel.meter import Exhausted, metered
+from proofs.trusted.kernel.staying import StayingSet, prove_staying_set
 from proofs.trusted.numbers import Phase, Phases
-from proofs.trusted.paper.s32_sets.invariant import (
-    ROWS,
-    InvariantSet,
-    Itinerary,
-    follow,
-    staying,
-)
-from proofs.trusted.paper.staying import StayingSet, prove_staying_set
+from proofs.trusted.paper.s32_sets.invariant import ROWS, InvariantSet, staying
 from proofs.trusted.parameters import PAPER, Parameters
-from proofs.trusted.slopes import SlopeRange
 from proofs.trusted.verdicts import Found, Verdict
 from proofs.trusted.verify import Rejected, check
 from tests.once import REPORTS
 from tests.oracles.judge import oracle
+from tests.proofs.trusted.paper.steps import moved_to
 
 DECIDE = {row.id: row.decide for row in ROWS}
 
@@ -40,7 +38,7 @@ def sets(left, right):
 def horseshoe(of, slopes=PAPER.slopes, at=PAPER.place):
     cells = Phases(*of.left), Phases(*of.right)
     whole = Phases(*of.interval)
-    return StayingSet(at, (whole,), cells, (slopes,) * 2, ((0, 1),) * 2, whole=True)
+    return StayingSet(PlasticMap(at), (whole,), cells, (slopes,) * 2, ((0, 1),) * 2, whole=True)
 
 
 @pytest.fixture(scope="module")
@@ -87,7 +85,7 @@ def known(*pairs, at=PAPER.place):
     images = tuple(Phase(Fraction(a), Fraction(b)) for _, (a, b) in pairs)
     nothing = (Fraction(0), Fraction(9))
     return SlopeRange(
-        at,
+        PlasticMap(at),
         tuple(Fraction(p) for p, _ in pairs),
         (nothing,) * len(pairs),
         images,
@@ -112,7 +110,7 @@ def test_follow_takes_the_nearest_points():
         (STEPS, "1.15"),  # anywhere in [1.25, 1.6]
         (STEPS, "1.35"),  # nothing is known there
         (known(("1.1", ("1.1", "1.1")), ("1.2", ("1.5", "1.6"))), "1.1"),  # it stays
-        (replace(STEPS, at=replace(PAPER, eta=Fraction("0.21")).place), "1.1"),
+        (moved_to(STEPS, replace(PAPER, eta=Fraction("0.21")).place), "1.1"),
         *(
             (known(("1.1", image), ("1.2", ("1.5", "1.6"))), "1.1")
             for image in (("1.19", "1.21"), ("1.15", "1.35"), ("0.99", "1.01"), ("1.39", "1.41"))
@@ -218,7 +216,7 @@ CUT = orbit("001")
         [CUT],
         [horseshoe(sets(("1.115", "1.15"), ("1.27", "1.32")))],
         [horseshoe(sets(("1.1", "1.15"), ("1.27", "1.319")))],
-        [replace(AROUND, at=replace(PAPER, nu=Fraction("-0.21")).place), CUT],
+        [moved_to(AROUND, replace(PAPER, nu=Fraction("-0.21")).place), CUT],
     ],
 )
 def test_nothing_without_a_horseshoe_around_the_interval(claim, found):

@@ -16,10 +16,11 @@ import pytest
 
 from proofs.search.s34_whole import prove
 from proofs.trusted.certificate import Malformed
+from proofs.trusted.flights import PlasticMap
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.coverings import EntropyBound, Weighted
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s34_circle.cycles import Coding, Cycles, Outer
-from proofs.trusted.paper.s34_circle.entropy import EntropyBound, Weighted
 from proofs.trusted.paper.s34_circle.expansion import (
     Expansion,
     beside,
@@ -35,7 +36,7 @@ from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
 from tests.oracles.judge import oracle
 from tests.oracles.motion import TURN, Impact, next_impact
-from tests.proofs.trusted.paper.steps import add, apply, derive, edited
+from tests.proofs.trusted.paper.steps import add, apply, derive, edited, moved_to
 from tests.proofs.trusted.paper.steps import evidence as committed_evidence
 from tests.proofs.trusted.paper.test_edits import TEN_PIECES as OF
 from tests.proofs.trusted.paper.test_edits import derived, few_pieces
@@ -406,13 +407,15 @@ def test_a_flight_from_the_arc_that_does_not_return_is_no_end(known):
 def test_bounds_of_two_oscillators_are_no_range(known):
     (found,) = only(EntropyRange, known)
     with pytest.raises(Unproved, match="two bounds"):
-        replace(found, lower=replace(found.lower, at=PAPER.place))
+        replace(found, lower=moved_to(found.lower, PAPER.place))
     with pytest.raises(Unproved, match="two bounds"):
         replace(found, growth=found.lower.growth - 1)
     with pytest.raises(Unproved, match="other branches"):
         replace(
             found,
-            lower=EntropyBound(found.at, (replace(found.lower.branches[0], turn=7),), 1, F(2)),
+            lower=EntropyBound(
+                PlasticMap(found.at), (replace(found.lower.branches[0], turn=7),), 1, F(2)
+            ),
         )
 
 

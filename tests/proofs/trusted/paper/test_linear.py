@@ -10,10 +10,10 @@ from flint import arb, ctx
 
 from proofs.search.s32_sets import prove
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.moran import MoranRoot
 from proofs.trusted.paper.s32_sets import linear, linear_steps
 from proofs.trusted.paper.s32_sets.linear import ExactMeasure, LinearDimension, LinearSet
 from proofs.trusted.paper.s32_sets.linear_steps import Excess, ShortGap, Uncovered, linear_sets
-from proofs.trusted.paper.s32_sets.moran import MoranRoot
 from proofs.trusted.paper.s32_sets.subshift import words
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict

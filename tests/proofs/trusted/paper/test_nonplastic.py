@@ -10,7 +10,7 @@ import pytest
 from mpmath import mp, mpf
 
 from proofs.shell.groups import produce
-from proofs.trusted.certificate import render
+from proofs.trusted.files import render
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verify import check
 from tests.proofs.trusted.paper import reference

@@ -11,12 +11,8 @@ from proofs.motion.system import System
 from proofs.motion.witness import HORIZON
 from proofs.search.s33_steps import ReboundProver
 from proofs.search.steps import Prover
-from proofs.trusted.certificate import (
-    Malformed,
-    Reader,
-    parameters_from_json,
-    parameters_to_json,
-)
+from proofs.trusted.certificate import Malformed, Reader, parameters_from_json
+from proofs.trusted.files import parameters_to_json
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.differential import Differential
 from proofs.trusted.kernel.rates import Rates

@@ -10,7 +10,7 @@ import pytest
 
 from proofs.search import s33_family
 from proofs.shell.groups import produce
-from proofs.trusted.certificate import render
+from proofs.trusted.files import render
 from proofs.trusted.kernel.horseshoe import Horseshoe
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s33_restitution.horseshoes import shoes

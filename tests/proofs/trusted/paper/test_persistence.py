@@ -17,7 +17,8 @@ from proofs.motion.transients import Summary, transients
 from proofs.report.figures import restitution
 from proofs.search.s34_persistence import prove
 from proofs.shell.groups import decide
-from proofs.trusted.certificate import SCHEMA, Malformed, parameters_to_json, render
+from proofs.trusted.certificate import SCHEMA, Malformed
+from proofs.trusted.files import parameters_to_json, render
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.stable import StableCycle
 from proofs.trusted.numbers import Phase

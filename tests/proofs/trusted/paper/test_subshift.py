@@ -5,9 +5,10 @@ from itertools import product
 
 import pytest
 
+from proofs.trusted.kernel import shifts
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.paper.s32_sets import subshift
-from proofs.trusted.paper.s32_sets.subshift import Subshift, closed_paths, words
+from proofs.trusted.kernel.shifts import closed_paths
+from proofs.trusted.paper.s32_sets.subshift import Subshift, words
 
 
 def without(*factors):
@@ -119,7 +120,7 @@ def test_chaotic(factors, chaotic):
 
 
 def test_growth_is_enclosed_however_rough_the_vector(monkeypatch):
-    monkeypatch.setattr(subshift, "_ROUNDS", 2)
+    monkeypatch.setattr(shifts, "_ROUNDS", 2)
     low, high = without("000").growth
     assert low < Fraction("1.8392867") < high
 

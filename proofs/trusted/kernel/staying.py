@@ -9,12 +9,15 @@ from functools import cached_property
 from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.kernel.arithmetic import Unproved, log
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.conclusion import AboutMap, Subject, given, named
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.elementary import log
+from proofs.trusted.kernel.images import ImageArc, image_arc
+from proofs.trusted.kernel.laps import Gap, SlopeRange, interval_of, signed, subject_of
 from proofs.trusted.kernel.meter import METER
+from proofs.trusted.kernel.shifts import closed_paths, irreducible, log_of, spectral_radius
 from proofs.trusted.numbers import (
-    Phases,
     Range,
     between,
     ceil_text,
@@ -25,27 +28,19 @@ from proofs.trusted.numbers import (
     show_range,
     within,
 )
-from proofs.trusted.paper.s32_sets.subshift import (
-    closed_paths,
-    irreducible,
-    log_of,
-    spectral_radius,
-)
-from proofs.trusted.parameters import Place
-from proofs.trusted.slopes import Avoids, ImageArc, SlopeRange, image_arc, signed
-from proofs.trusted.verdicts import Found
 
 _LOG_BITS = 128
 _MOST_CELLS = 100  # that orbits stay in
+_PHASE = "phase", "phi"  # of the oscillator's map
 _CONNECTIONS = (
-    " The phases with sequences over 0, 1 and those over 1, 2 are two invariant Cantor sets, each "
-    "a full shift on two symbols, with the fixed point p = 111... in common; they are the phases "
-    "whose orbits stay in the interval up to p, and in the interval from p on. They are connected "
-    "in both directions: a word over 0, 1, as long as one likes, and then a sequence over 1, 2 "
-    "belong to a phase whose orbit begins near the first set and ends in the second one; a "
-    "sequence infinite to both sides, over 0, 1 in the past and over 1, 2 in the future, to a full "
-    "orbit that tends to the first set in the past and lies in the second in the future; and the "
-    "same with the two sets exchanged."
+    " The {point}s with sequences over 0, 1 and those over 1, 2 are two invariant Cantor sets, "
+    "each a full shift on two symbols, with the fixed point p = 111... in common; they are the "
+    "{point}s whose orbits stay in the interval up to p, and in the interval from p on. They are "
+    "connected in both directions: a word over 0, 1, as long as one likes, and then a sequence "
+    "over 1, 2 belong to a {point} whose orbit begins near the first set and ends in the second "
+    "one; a sequence infinite to both sides, over 0, 1 in the past and over 1, 2 in the future, to "
+    "a full orbit that tends to the first set in the past and lies in the second in the future; "
+    "and the same with the two sets exchanged."
 )
 
 
@@ -54,23 +49,23 @@ def listed(ranges: Iterable[Range]) -> str:
     return ", ".join(map(show_range, ranges))
 
 
-def apart(intervals: Iterable[Phases]) -> bool:
+def apart(intervals: Iterable[Range]) -> bool:
     """Whether intervals are disjoint, and in order of phase."""
     return all(one[1] < two[0] for one, two in pairwise(intervals))
 
 
 @dataclass(frozen=True)
-class StayingSet(Conclusion):
-    """The phases whose orbits stay in a region: in disjoint cells, f expanding on each, over some.
+class StayingSet(AboutMap):
+    """The points whose orbits stay in a region: in disjoint cells, f expanding on each, over some.
 
     onward[i]: the cells that f maps cell i over; it misses the others. slopes: bounds on f' on each
     cell. whole: whether the region is an interval, and in the image of each cell, an interval of
     phases, and f maps no other phase of the region into it.
     """
 
-    at: Place
-    region: tuple[Phases, ...]
-    cells: tuple[Phases, ...]
+    function: Subject
+    region: tuple[Range, ...]
+    cells: tuple[Range, ...]
     slopes: tuple[Range, ...]
     onward: tuple[tuple[int, ...], ...]
     whole: bool = False
@@ -100,7 +95,7 @@ class StayingSet(Conclusion):
         return self.steepness[0]
 
     @property
-    def interval(self) -> Phases:
+    def interval(self) -> Range:
         """The region, where it is one interval."""
         (interval,) = self.region
         return interval
@@ -137,7 +132,7 @@ class StayingSet(Conclusion):
         return all(len(after) == len(self.cells) > 1 for after in self.onward)
 
     @property
-    def orbit(self) -> tuple[Phases, ...]:
+    def orbit(self) -> tuple[Range, ...]:
         """The cells in the order of the orbit, where all that stays is one; () where it is not."""
         if any(len(after) > 1 for after in self.onward):
             return ()
@@ -169,13 +164,16 @@ class StayingSet(Conclusion):
 
     @property
     def sentence(self) -> str:
+        f, (point, x) = named(self.function), ("point", "x") if self.place is None else _PHASE
         if self.orbit:
             points = "" if self.bracketed else f", with one point in each of {listed(self.orbit)}"
-            return f"{self.brief}{points}."
-        named = ", ".join(f"{index} = {show_range(cell)}" for index, cell in enumerate(self.cells))
+            return f"{given(self.function)}{self.brief}{points}."
+        sets = ", ".join(f"{index} = {show_range(cell)}" for index, cell in enumerate(self.cells))
         region, over = "these sets" if self.bracketed else listed(self.region), ""
         if self.whole:
-            over = f", maps each of them one-to-one over {region}, and no other phase there into it"
+            over = (
+                f", maps each of them one-to-one over {region}, and no other {point} there into it"
+            )
         falls = [f"{index}" for index, sign in enumerate(self.signs) if sign < 0]
         if falls:
             over = f", decreasing on {', '.join(falls)}{over}"
@@ -192,17 +190,18 @@ class StayingSet(Conclusion):
         if not self.full:
             numbers = ", ".join(map(str, self.fixed_points))
             counts = f"{numbers} fixed points there for n = 1, ..., 8"
+        more = _CONNECTIONS.format(point=point) if self._is_chain else ""
         return (
-            f"f is continuously differentiable and monotone on each of the sets {named}, with "
-            f"{self._slope} in {between(self.steepness, 3)}{over}. The phases whose orbits stay "
-            f"in {region} are a Cantor set{null}, on which f is topologically conjugate to the "
-            f"one-sided {steps}, the n-th symbol being the number of the set that f^n(phi) lies "
-            "in. For every n and each word of n symbols that occurs, the phases with phi, ..., "
-            "f^(n-1)(phi) in its sets are a closed interval, disjoint from those of the other "
-            f"words and at most {show(longest)}/{floor_text(self.expansion, 3)}^(n-1) long. f^n "
-            f"has {counts}; there are periodic orbits of {self._periods}, uncountably many "
-            f"nonperiodic ones and a dense one; the entropy of f there is {log_of(self.growth)}."
-            f"{_CONNECTIONS if self._is_chain else ''}"
+            f"{given(self.function)}{f} is continuously differentiable and monotone on each of the "
+            f"sets {sets}, with {self._slope} in {between(self.steepness, 3)}{over}. The {point}s "
+            f"whose orbits stay in {region} are a Cantor set{null}, on which {f} is topologically "
+            f"conjugate to the one-sided {steps}, the n-th symbol being the number of the set that "
+            f"{f}^n({x}) lies in. For every n and each word of n symbols that occurs, the {point}s "
+            f"with {x}, ..., {f}^(n-1)({x}) in its sets are a closed interval, disjoint from those "
+            f"of the other words and at most {show(longest)}/{floor_text(self.expansion, 3)}^(n-1) "
+            f"long. {f}^n has {counts}; there are periodic orbits of {self._periods}, uncountably "
+            f"many nonperiodic ones and a dense one; the entropy of {f} there is "
+            f"{log_of(self.growth)}.{more}"
         )
 
     @property
@@ -211,7 +210,7 @@ class StayingSet(Conclusion):
 
     @property
     def latex(self) -> str:
-        if not self.whole:
+        if not self.whole or self.place is None:
             return ""
         low, high = floor_text(self.expansion, 3), ceil_text(self.steepness[1], 3)
         size = self._slope
@@ -219,7 +218,8 @@ class StayingSet(Conclusion):
 
     @property
     def _slope(self) -> str:
-        return "f'" if self._rises else "|f'|"
+        slope = f"{named(self.function)}'"
+        return slope if self._rises else f"|{slope}|"
 
     @property
     def _rises(self) -> bool:
@@ -242,7 +242,7 @@ class StayingSet(Conclusion):
 
 
 def staying_set(
-    region: Sequence[Phases], cells: Sequence[SlopeRange], gaps: Sequence[Avoids]
+    region: Sequence[Range], cells: Sequence[SlopeRange], gaps: Sequence[Gap]
 ) -> StayingSet:
     """Theorem. Let cells lie in a region, intervals that are apart, and meet at ends at most, |f'|
     > 1 on each, with an image shorter than the circle. Let cells and gaps cover the region, and let
@@ -261,27 +261,25 @@ def staying_set(
     path: itineraries are a bijection to the paths. The cells are apart and f is continuous on them,
     so it is continuous; paths are compact: it is a homeomorphism, and turns f into the shift. One
     path alone is a periodic orbit, repelling as |f'| > 1. 3. The shift on the paths of other such
-    graphs is as said, see `Subshift.chaotic`; its entropy is the log of the spectral radius (Lind
+    graphs is as said, see `is_chaotic`; its entropy is the log of the spectral radius (Lind
     and Marcus 1995, theorem 4.3.1), and closed paths are its periodic points. 4. Where f increases
     and images contain all of an interval, the order of phases is the lexicographic order of
     sequences. So, on three symbols, f^n(phi) <= p for all n if and only if no sequence moved on
     begins with 2, that is, none of the symbols is 2; f^n(phi) >= p if and only if none is 0. Every
     sequence has its phase, and those of sequences that agree for long are close.
     """
-    region, cells = sorted(region), sorted(cells, key=lambda x: x.domain)
+    function, cells = subject_of([*cells, *gaps]), sorted(cells, key=lambda x: x.domain)
+    region = sorted(interval_of(function, part) for part in region)
     if any(one.domain[1] > two.domain[0] for one, two in pairwise(cells)):
         raise Unproved("cells overlap")
     for cell in cells:
         if not cell.expands or not any(within(cell.domain, part) for part in region):
             raise Unproved("on a cell f does not expand, or it leaves the region")
-    if not all(within(part, gap.target) for part in region for gap in gaps):
+    if not all(gap.misses(part) for part in region for gap in gaps):
         raise Unproved("a gap is not proved to avoid the region")
-    known = sorted([*(cell.domain for cell in cells), *(gap.phases for gap in gaps)])
+    known = sorted([*(cell.domain for cell in cells), *(gap.source for gap in gaps)])
     if not all(covered(part, known) for part in region):
         raise Unproved("cells and gaps do not cover the region")
-    places = {each.at for each in cells} | {each.at for each in gaps}
-    if len(places) != 1:
-        raise Unproved("the hypotheses are about different oscillators, or about none")
     arcs = [image_arc(cell) for cell in cells]
     alive = _going_on(cells, arcs)
     onward = [_over(arcs[i], [cells[j].domain for j in alive]) for i in alive]
@@ -290,7 +288,7 @@ def staying_set(
     )
     slopes = tuple(cells[i].bounds() for i in alive)
     kept = tuple(cells[i].domain for i in alive)
-    return StayingSet(places.pop(), tuple(region), kept, slopes, tuple(onward), whole)
+    return StayingSet(function, tuple(region), kept, slopes, tuple(onward), whole)
 
 
 def _going_on(cells: Sequence[SlopeRange], arcs: Sequence[ImageArc]) -> list[int]:
@@ -307,7 +305,7 @@ def _going_on(cells: Sequence[SlopeRange], arcs: Sequence[ImageArc]) -> list[int
     return sorted(alive)
 
 
-def _over(arc: ImageArc, cells: Sequence[Phases]) -> tuple[int, ...]:
+def _over(arc: ImageArc, cells: Sequence[Range]) -> tuple[int, ...]:
     """Return the places of the cells that an image contains; it must miss the others."""
     if not all(arc.covers(cell) or arc.misses(cell) for cell in cells):
         raise Unproved(f"{arc.brief}: a cell is proved neither covered nor missed")
@@ -328,17 +326,12 @@ def read_part(context: Context, reader: Reader) -> SlopeRange:
 def prove_staying_set(context: Context, reader: Reader) -> StayingSet:
     """Rule `staying-set`: {region: [[low, high], ...], cells: [{slopes, domain}], gaps}.
 
-    slopes: a slope-range step; domain: two of its points; gaps: names of avoids steps. Conclusion:
-    `staying_set`.
+    For a map of the line, or of a circle. slopes: a step of the rule `slopes`, or `slope-range`;
+    domain: two of its points; gaps: names of steps `image` or `avoids`. Conclusion: `staying_set`.
     """
     region, cells, gaps = reader.fields("region", "cells", "gaps")
     return staying_set(
-        [Phases(*part.range()) for part in region.items(1, 500)],
+        [part.range() for part in region.items(1, 500)],
         [read_part(context, cell) for cell in cells.items(1, 500)],
-        [context.step(gap, Avoids) for gap in gaps.items(0, 50)],
+        [context.step(gap, Gap) for gap in gaps.items(0, 50)],
     )
-
-
-def horseshoes(found: Found) -> list[StayingSet]:
-    """Return the horseshoes that are proved."""
-    return [each for each in found.all(StayingSet) if each.is_horseshoe]
