@@ -119,6 +119,7 @@ def test_families_are_told_once():
     assert max(map(len, found)) >= 3 and len(set(names)) == len(names)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("eta", "nu"), [("1.1009", "-1.2954"), ("0.22", "-0.2")])
 def test_loops_are_mapped_as_a_markov_set_must_be(eta, nu):
     """Each cell over a part of the others, and past the rest: by the oracle's own impacts."""

@@ -58,6 +58,7 @@ def test_the_oracles_see_what_is_concluded():
 # -- the other orbit -------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_pair_alone_decides_nothing():
     motion, pair = proof("G7")
     assert isinstance(motion, SuperstableMotion) and isinstance(pair, StableCycle)
