@@ -15,4 +15,4 @@ EFFORT = Effort()
 
 def examples(count, at_length=None):
     """How many to try: `at_length` in the whole suite, where it is given; else `count`."""
-    return max(count // 3, 8) if EFFORT.quick else at_length or count
+    return max(count // 5, 5) if EFFORT.quick else at_length or count

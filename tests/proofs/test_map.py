@@ -54,6 +54,7 @@ def test_the_attracting_orbit_of_the_logistic_map(r, period):
     assert round(float(sum(found.box[0]) / 2), 6) in orbit
 
 
+@pytest.mark.slow
 def test_all_orbits_of_henon_are_as_many_as_published():
     box = {"x": ("-1.5", "1.5"), "y": ("-0.5", "0.5")}  # Galias 2001: 2, 1, 0, 1, 0, 2
     assert accepted(HENON.periodic_orbits(6, box)).conclusion.counts == ((1, 2), (2, 1), (6, 2))

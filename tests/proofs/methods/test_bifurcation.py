@@ -62,6 +62,7 @@ def same(expression, text):
     return derive.simplest(expression - derive.read(formula(text))) == 0
 
 
+@pytest.mark.slow
 def test_a_point_that_is_not_real_is_no_bifurcation():
     """x1 = r + 1/x has the multiplier -1/x^2: 1 at x = i and -i, -1 at x = 1 and -1."""
     line = "x1 = r + 1/x"
@@ -383,15 +384,6 @@ def test_coefficients_by_the_projection_method(case):
 
 
 # -- what is refused -------------------------------------------------------------------------------
-
-
-@pytest.mark.slow
-def test_real_multipliers_of_product_1_are_no_circle():
-    with pytest.raises(Undecided, match="real"):
-        enclosed(
-            "neimark_sacker", "b", {"x": "1", "y": "1", "b": "1"},
-            "x1 = 4*x - y - 2 + (x - 1)^2", "y1 = b*x + (y - 1)^2",
-        )  # fmt: skip
 
 
 @pytest.mark.parametrize(

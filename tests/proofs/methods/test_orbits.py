@@ -133,21 +133,6 @@ def logistic_point(word):
         return x
 
 
-def test_the_logistic_map_in_closed_form():
-    rows = {
-        row.word: row for n in (1, 2) for row in periodic_points(LOGISTIC, Words.of_length(n), 40)
-    }
-    with mp.workdps(60):
-        root = mp.sqrt(12)
-        known = {"0": (mpf(0), 5), "1": (mpf(4) / 5, -3)}
-        known |= {"01": ((6 - root) / 10, -11), "10": ((6 + root) / 10, -11)}
-        for word, (point, multiplier) in known.items():
-            row, margin = rows[word], mpf(10) ** -55
-            assert as_mpf(row.point[0]) <= point + margin and point - margin <= as_mpf(row.point[1])
-            assert row.multiplier[0] <= multiplier <= row.multiplier[1]
-    assert [rows[word].period for word in ("00", "01", "11")] == [1, 2, 1]
-
-
 def as_mpf(x):
     return mpf(x.numerator) / x.denominator
 

@@ -1,7 +1,8 @@
 """All periodic orbits in a region: closed forms, other algorithms, and what stays undecided."""
 
+import math
 from fractions import Fraction
-from itertools import product
+from itertools import pairwise, product
 
 import numpy as np
 import pytest
@@ -23,19 +24,6 @@ def on_line(f, low, high, g=None, depth=10):
 LOGISTIC = on_line(logistic, -1, 2)
 
 
-def test_the_logistic_map_in_closed_form():
-    """0 and 4/5, multipliers 5 and -3; the roots of 25 x^2 - 30 x + 6, multiplier -11."""
-    fixed = periodic_orbits(LOGISTIC, 1)
-    for orbit, x, slope in zip(fixed, (0, Fraction(4, 5)), (5, -3), strict=True):
-        assert orbit.points[0][0].contains(x) and orbit.trace.contains(slope)
-    (cycle,) = [orbit for orbit in periodic_orbits(LOGISTIC, 2) if orbit.period == 2]
-    (low,), (high,) = cycle.points
-    assert low < high
-    assert (low + high).contains("6/5") and (low * high).contains("6/25")
-    assert cycle.trace.contains(-11)
-    assert (logistic(low) - high).contains(0) and (logistic(high) - low).contains(0)
-
-
 @pytest.mark.parametrize("period", [1, 2, 3, 4, 6])
 def test_all_points_of_the_logistic_map_by_its_inverse_branches(period):
     """The same points as those of the words, found without any subdivision."""
@@ -49,7 +37,12 @@ def test_all_points_of_the_logistic_map_by_its_inverse_branches(period):
     ends = sorted((x.inf, x.sup) for orbit in orbits for (x,) in orbit.points)
     for (low, high), point in zip(ends, sorted(points), strict=True):
         assert low - 1e-14 <= point <= high + 1e-14 and high - low < Fraction(1, 10**11)
-    assert all(period % orbit.period == 0 for orbit in orbits)
+    for orbit in orbits:  # 5 - 10 x is the slope at x
+        assert period % orbit.period == 0
+        slopes = math.prod(5 - 10 * x for (x,) in orbit.points)
+        assert orbit.trace.intersection(slopes) is not None and orbit.trace.wid < 1e-6
+        for (x,), (image,) in pairwise(orbit.points):
+            assert (logistic(x) - image).contains(0)
     assert [o.period for o in orbits] == sorted(o.period for o in orbits)
 
 

@@ -426,14 +426,6 @@ def test_orbits_with_restitution(tmp_path, capsys):
     assert "epsilon = 0.3: there is exactly one stable" in capsys.readouterr().out
 
 
-def test_another_region_in_the_same_folder_is_refused(tmp_path, capsys):
-    assert atlas.main([*SMALL, "--depth", "0", "--out", str(tmp_path)]) == 1
-    with pytest.raises(SystemExit) as left:
-        atlas.main([*LARGE, "--depth", "0", "--out", str(tmp_path)])
-    said = capsys.readouterr().err
-    assert left.value.code == 2 and "another region" in said and "--out" in said
-
-
 def test_a_region_across_resonance_is_cut_there(tmp_path, capsys):
     region = ["--eta", "0.9", "1.1", "--nu", "-0.1", "0.1", "--ask", "horseshoe"]
     assert atlas.main([*region, "--depth", "0", "--out", str(tmp_path)]) == 1

@@ -84,7 +84,7 @@ def test_where_f_decreases_theorems_and_dimension_are_those_of_the_oracle(fallin
     low = replace(falling, slopes=(F(2), F(9)))
     found = prove(low, ("H2",))
     line = decide("H2", low, found, 15)[0]
-    assert line.verdict is Verdict.REFUTED and "decreasing on 0, 1" in line.corrected
+    assert line.verdict is Verdict.REFUTED and "decreasing on 0, 1" in line.truth
     sets = produce({"sets": ("H7", "H10"), "dimension": ("H13",)}, falling, digits=10)
     assert [x.verdict.value for x in sets.lines] == ["VERIFIED", "VERIFIED", "REFUTED"]
     told = premises(sets.certificate).known.values()
@@ -119,6 +119,7 @@ def test_families_are_told_once():
     assert max(map(len, found)) >= 3 and len(set(names)) == len(names)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("eta", "nu"), [("1.1009", "-1.2954"), ("0.22", "-0.2")])
 def test_loops_are_mapped_as_a_markov_set_must_be(eta, nu):
     """Each cell over a part of the others, and past the rest: by the oracle's own impacts."""

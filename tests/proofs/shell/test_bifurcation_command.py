@@ -32,6 +32,7 @@ def test_formulas_with_latex(capsys):
     assert len(found["checked"]) == 5
 
 
+@pytest.mark.slow
 def test_enclosures_hold_the_digits_asked_for(capsys):
     near = ["--set", "b=0.3", "--near", "x=1,y=0.3,a=0.4", "--digits", "25"]
     found = answer(capsys, *HENON, "--kind", "flip", *near)["bifurcations"]["flip"]["enclosed"]
@@ -74,6 +75,7 @@ def test_what_sympy_alone_knows_is_undecided(equation, said, capsys):
     assert f"undecided: {said}: " in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_what_is_found_and_what_is_dropped_are_told(capsys):
     """A resonance 1:4 at the origin; at (2, 2), b = 3 the multipliers are real."""
     circle = ["x1 = y", "y1 = -b*x + y^2 + x*y", "--kind", "neimark_sacker"]

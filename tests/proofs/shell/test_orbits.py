@@ -122,17 +122,6 @@ def test_all_words_in_order(length):
         assert before.word < after.word and before.point[1] < after.point[0]
 
 
-def test_shorter_words_are_among_the_longer_ones():
-    fine = {row.word: row for row in points(6, 25)}
-    assert len(fine) == 64
-    for row in points(3, 25):
-        twice = fine[row.word * 2]
-        assert max(row.point[0], twice.point[0]) <= min(row.point[1], twice.point[1])
-        square = (row.multiplier[0] ** 2, row.multiplier[1] ** 2)
-        assert square[0] <= twice.multiplier[1] and twice.multiplier[0] <= square[1]
-        assert row.period == twice.period
-
-
 def determinant(exponent, longest):
     """det(1 - L) of the operator L g = sum of |h'|^s g(h) over inverse branches h, from its traces.
 
@@ -147,6 +136,7 @@ def determinant(exponent, longest):
     return sum(series)
 
 
+@pytest.mark.slow
 def test_the_cycles_give_the_dimension_of_their_closure():
     """det(1 - L_s) = 0 at the dimension s, which a certificate encloses by another method."""
     claims = json.loads((ROOT / "reports" / "dimension.json").read_text())["claims"]
@@ -237,16 +227,6 @@ def test_without_a_horseshoe_nothing_is_claimed(arguments, reason, how, capsys):
     said = capsys.readouterr()
     assert said.out == "" and said.err.count("\n") == 1
     assert "UNDECIDED" in said.err and reason in said.err
-
-
-def test_other_parameters():
-    """At eta = 0.212 the same sets make a horseshoe; its fixed points solve (10)."""
-    other = periodic.horseshoe(replace(EXACT, eta=Fraction("0.212")))
-    for row in periodic_points(other, Words.of_length(1), 25):
-        mean = as_mpf(sum(row.point) / 2)
-        assert (
-            abs(reference.left_side_10(mpf("0.212"), NU, mean, flight(mean, mean))) < mpf(10) ** -25
-        )
 
 
 @pytest.mark.parametrize("word", ["0", "01", "0011"])

@@ -124,6 +124,7 @@ def test_many_digits_at_points(name):
                 assert high - low < 1e-28
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name", [pytest.param(x, marks=() if x in ("made", "pendulum") else LONG_ONLY) for x in FLOWS]
 )
@@ -435,6 +436,7 @@ FORGERIES = [
 ]
 
 
+@pytest.mark.slow
 def test_an_orbit_is_checked_within_the_usual_work():
     sentence = check(orbit()).sentences[0]
     for text in ("D(z, t) = b + z*(x - c)", "1st `t > 0` at which `x` rises", "`c` = 5.7"):
@@ -524,6 +526,7 @@ HOSTILE = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", HOSTILE)
 def test_a_hostile_file_costs_no_more_than_it_is_given(name):
     began = time.process_time()

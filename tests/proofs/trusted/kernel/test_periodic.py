@@ -270,6 +270,7 @@ def test_a_fold_is_not_found():
         source(((("x",), ("x + x**2",)), (("-1", "2"),)), 1)
 
 
+@pytest.mark.slow
 def test_a_period_too_long_for_the_precision():
     refused(SHIFT, 1, lambda witness: witness.update(period="90"), "another periodic orbit")
 

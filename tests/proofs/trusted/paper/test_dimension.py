@@ -76,6 +76,7 @@ def test_the_slopes_are_those_of_the_branches():
 # -- the verdict -----------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_paper_is_refuted():
     found = decide(conclusions())
     assert found.verdict is Verdict.REFUTED and "without the factor 000" in found.witness

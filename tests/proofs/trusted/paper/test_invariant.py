@@ -47,6 +47,7 @@ def proved():
     return json.loads((REPORTS / "sets.json").read_text())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("left", "right"),
     [

@@ -58,6 +58,7 @@ def test_the_oracles_see_what_is_concluded():
 # -- the other orbit -------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_pair_alone_decides_nothing():
     motion, pair = proof("G7")
     assert isinstance(motion, SuperstableMotion) and isinstance(pair, StableCycle)
@@ -193,6 +194,7 @@ def widen(ends, by):
 
 
 EDITS = [
+    ((*FLIGHT, "times"), lambda times: [times[0], *times[-2:]]),
     ((*FLIGHT, "times"), lambda times: times[-2:]),
     ((*CHATTER, "box"), lambda box: [widen(ends, "1/2") for ends in box]),
     ((*CHATTER, "cells"), lambda cells: [cells[0], *cells[-1:]]),
