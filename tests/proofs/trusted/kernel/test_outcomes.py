@@ -148,6 +148,7 @@ LIES = [
     ("a touch of none in the side", touch("(t - 1)**2 + x", side=("1/200", "1/100")), "touches 0"),
     ("impacts alone", touch("(t - 1)**2 + x", side=("-1/50", "-1/1000"), time=("1/2", "17/10")),
      "touches 0"),
+    ("nearly a touch", touch("(t - 1)**2 + x - 1/3 + 1/10**25", side=("1/3", "1/2")), "touches 0"),
     ("another wall before", touch("(t - 1)**2 + x", "1/2 - t"), NONE),
     ("another wall at once", touch("(t - 1)**2 + x", "(t - 1)**2 + x"), NONE),
     ("no axis", ("graze", CLOCK, {"box": FREE[:1], "axis": "2", "time": ["1", "2"]}), "from 1 to"),
