@@ -74,6 +74,14 @@ def test_formulas_are_enclosed_for_ever(text, x, times):
             assert ray.hi[0] > 0 or value <= ray.hi[1] + slip
 
 
+def test_products_are_rounded_outward():
+    """Of what is -2^-64 at the most and of 2^-64 each is -2^-128 at the most, and at least."""
+    (low, high), unit = ((-1, 0), (0, -1)), Ray((0, 1), (0, 1))
+    assert Rays(BITS).apply("*", [Ray(low, high), unit], Fraction(0)) == Ray(low, (0, 0))
+    upward = Rays(BITS).apply("*", [Ray((0, -1), (1, 0)), unit], Fraction(0))
+    assert upward == Ray((0, -1), (1, 0))
+
+
 # -- what is false is refused ----------------------------------------------------------------------
 
 
