@@ -79,8 +79,9 @@ class Oscillators:
         return schema.string(), eta.range(), nu.range(), name.string(), made
 
     def is_about(self, certificate: Reader, report: Report, box: Box) -> bool:
-        """Whether a certificate is about all oscillators of a box."""
-        return report.parameters == self.at(box)
+        """Whether a certificate is about all oscillators of a box, and no function of its own."""
+        is_own = any(each.is_foreign for each in report.conclusions)
+        return report.parameters == self.at(box) and not is_own
 
 
 PLASTIC = Oscillators()

@@ -50,7 +50,7 @@ HARMLESS = {  # fields; what may be done to them, and why
     **dict.fromkeys((*TREES, "left", "right"), (ANY, "another subdivision, each leaf proved anew")),
     **dict.fromkeys(("epsilon", "velocities", "reach"), (ANY, "plastic claims do not speak of it")),
     **dict.fromkeys(("proof", "steps", "orbits", "cells"), ("swapped turned", "the order is free")),
-    "gaps": ("added swapped turned", "a gap may be there twice"),
+    **dict.fromkeys(("gaps", "images"), ("added swapped turned", "one may be there twice")),
     "formula": ("another", "the same function"),
 }
 EXCUSED = {  # what breaks the form elsewhere
@@ -61,6 +61,7 @@ EXCUSED = {  # what breaks the form elsewhere
     "quantities other type": "no quantities",
     "expressions unknown field": "another unknown",
     "points other type": "an arc without points says less",
+    "periods missing": "a map of the line, not of the circle",
 }
 
 

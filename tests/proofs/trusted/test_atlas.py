@@ -12,7 +12,7 @@ from proofs.plane.head import Here, run
 from proofs.plane.store import opened
 from proofs.trusted.atlas import Region, area, check_atlas
 from proofs.trusted.certificate import SCHEMA as DOCUMENT
-from proofs.trusted.certificate import Malformed, texts
+from proofs.trusted.certificate import Malformed, Reader, texts
 from proofs.trusted.flights import PlasticMap
 from proofs.trusted.kernel.coverings import EntropyBound
 from proofs.trusted.kernel.meter import DEFAULT, Exhausted, metered
@@ -23,6 +23,8 @@ from proofs.trusted.questions import question
 from proofs.trusted.subjects import Oscillators, Systems
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check
+from tests.oracles.edits import needed
+from tests.proofs.trusted.kernel import lemma_examples
 
 F = Fraction
 REGION = Region((F("0.2115"), F("0.2127")), (F("-0.201"), F("-0.199")), "horseshoe")
@@ -283,6 +285,22 @@ def test_the_paper_s_map_is_no_function_of_a_file_whatever_its_name():
     said = {"verdict": "VERIFIED", "kind": "PeriodicOrbit", "says": says, "certificate": document}
     cell = {"cell": "0/", "a": ["1", "2"], "b": ["1", "2"], **said}
     refused([json.loads(region.text), cell], "does not answer the question")
+
+
+@pytest.mark.parametrize(("step", "asked"), [("covering", "entropy:2"), ("orbit", "attractor")])
+def test_a_function_of_a_file_is_not_the_paper_s_map(step, asked):
+    """What is proved of a map of the line, in a file about the oscillators of the cell."""
+    region = Region((F("0.2"), F("0.25")), (F("-0.2"), F("-0.1")), asked)
+    sides = {name: texts(side) for name, side in zip(region.names, region.sides_of, strict=True)}
+    document = json.loads(lemma_examples.text("lines"))
+    steps = needed(document["steps"], [step])
+    document |= {"parameters": sides, "steps": steps, "claims": [step]}
+    named = {name for each in steps.values() for name in Reader(each).mentioned()}
+    document["functions"] = {k: x for k, x in document["functions"].items() if k in named}
+    (found,) = check(json.dumps(document)).conclusions
+    said = {"verdict": "VERIFIED", "kind": found.kind, "says": found.sentence}
+    cell = {"cell": "0/", **sides, **said, "certificate": document}
+    refused([json.loads(region.text), cell], "other parameters")
 
 
 def test_another_region_or_none(lines):
