@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 from proofs.shell.backstop import Overrun, limited
 from proofs.shell.entry import workers
-from proofs.shell.screen import Arguments, fitted, say
+from proofs.shell.screen import Arguments, Decided, fitted, in_a_line, say
 from proofs.trusted.certificate import LEDGER, MANIFEST, MAX_BYTES, Malformed
 from proofs.trusted.files import decoded, digest, opened, schema_of
 from proofs.trusted.kernel.meter import DEFAULT, METER, Exhausted, metered
@@ -38,6 +38,7 @@ if TYPE_CHECKING:
 
 PIPED = Path("-")
 _CHUNK = 16  # cells that are checked together
+_WIDTH = 98  # of a claim, beside what it is indented by
 _STORE = b"SQLite format 3\0"
 _OPEN = Verdict.UNDECIDED.value
 _ATLAS = re.compile(rb'\s*\{\s*"schema"\s*:\s*"impact-proofs\.atlas/')
@@ -64,6 +65,8 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("files", nargs="*", metavar="FILE", type=Path, help=files)
     parser.add_argument("--rules", action="store_true", help="print the rules of inference")
     parser.add_argument("--quiet", action="store_true", help="print nothing but what is wrong")
+    help_text = "say why a claim is decided so, and what is true instead"
+    parser.add_argument("--verbose", action="store_true", help=help_text)
     help_text = f"how much work a file may take, all of a list twice that (default {DEFAULT})"
     parser.add_argument("--work", type=_work, default=DEFAULT, metavar="N", help=help_text)
     help_text = "for each claim the files of the checker that it rests on, and their lines"
@@ -79,8 +82,8 @@ def main(arguments: list[str] | None = None) -> int:
         parser.error("no file to check")
     if options.trust:
         return max((_trust(path, options.work) for path in options.files), default=0)
-    checks = (check_file(path, options.work, options.quiet, options.jobs) for path in options.files)
-    return max(checks, default=0)
+    how = options.work, options.quiet, options.jobs, options.verbose
+    return max((check_file(path, *how) for path in options.files), default=0)
 
 
 def _trust(path: Path, work: int) -> int:
@@ -111,15 +114,21 @@ def printable(path: Path) -> str:
     return name if name.isprintable() else ascii(name)
 
 
-def check_file(path: Path, work: int = DEFAULT, is_quiet: bool = False, jobs: int = 1) -> int:
-    """Check one file, print a line a claim; return its exit status."""
+def check_file(
+    path: Path,
+    work: int = DEFAULT,
+    is_quiet: bool = False,
+    jobs: int = 1,
+    is_verbose: bool = False,
+) -> int:
+    """Check one file, print a line a claim, or all of it; return its exit status."""
     name = printable(path)
     try:
         with (
             limited(work),
             nullcontext(sys.stdin.buffer) if path == PIPED else opened(path) as file,
         ):
-            said, is_open = _check_open(file, path, work, jobs)
+            said, is_open = _check_open(file, path, work, jobs, is_verbose)
     except Malformed as error:
         return _refused(2, f"{name}: malformed: {error}")
     except OSError as error:
@@ -135,7 +144,9 @@ def check_file(path: Path, work: int = DEFAULT, is_quiet: bool = False, jobs: in
     return int(is_open)
 
 
-def _check_open(file: BinaryIO, path: Path, work: int, jobs: int) -> tuple[list[str], bool]:
+def _check_open(
+    file: BinaryIO, path: Path, work: int, jobs: int, is_verbose: bool
+) -> tuple[list[str], bool]:
     """Check what a file holds; return what to say, and if anything is undecided."""
     name, first = printable(path), file.readline(MAX_BYTES + 1)
     if first.startswith(_STORE):
@@ -151,7 +162,7 @@ def _check_open(file: BinaryIO, path: Path, work: int, jobs: int) -> tuple[list[
         return [said], Verdict.UNDECIDED in {each.verdict for each in listed}
     report = check(source, work)
     is_open = Verdict.UNDECIDED in {claim.verdict for claim in report.claims}
-    return report_lines(name, report, digest(source)), is_open
+    return report_lines(name, report, digest(source), is_verbose), is_open
 
 
 def _check_lines(
@@ -222,13 +233,17 @@ def _counted(listed: list[Listed]) -> str:
     return f"{len(claims)} claims{where}: {named}"
 
 
-def report_lines(name: str, report: Report, digest_of: str) -> list[str]:
-    """Return what a certificate was found to prove."""
+def report_lines(name: str, report: Report, digest_of: str, is_verbose: bool) -> list[str]:
+    """Return what a certificate was found to prove, in a line a claim unless verbose."""
     whose = "the paper's parameters" if report.is_paper else "not the paper's parameters"
     if not isinstance(report.parameters, Parameters):
         whose = "about formulas" if report.parameters is None else "about a box of parameters"
     said = [f"{name}: accepted, {whose}, {digest_of}"]
     for claim in report.claims:
+        if not is_verbose:
+            row = Decided(claim.id, claim.verdict, claim.statement, claim.why)
+            said.append(f"  {in_a_line(row, _WIDTH)}")
+            continue
         said.append(f"  {claim.id:4} {claim.verdict.value:11} {claim.statement} [{claim.why}]")
         if claim.corrected is not None:
             said.append(f"       corrected, VERIFIED: {claim.corrected}")

@@ -68,8 +68,9 @@ class Map:
         try:
             self._kernel = Derivation(self.functions).map(function)
         except (Malformed, Unproved) as error:
-            reason = str(error)
-            raise GrammarError(reason.partition(": ")[2] if reason[0] == "$" else reason) from None
+            reason = str(error).partition(": ")[2] if str(error)[0] == "$" else str(error)
+            hint = ": give it a value among the parameters" if "unknown variable" in reason else ""
+            raise GrammarError(reason + hint) from None
 
     @property
     def variables(self) -> tuple[str, ...]:

@@ -160,6 +160,20 @@ class System(Map):
         contact = self._file.contact(before)
         return self._outcome("pressed", resting(self._file.map(before, before), contact), state)
 
+    def require_launches(self) -> None:
+        """Raise ValueError where a gap is seen to be < 0 after all launches of the region.
+
+        That is a gap of the wrong sign, or a region of states before impacts; one with the first
+        wall is looked at, in floating point, and nothing where the flow is validated.
+        """
+        from proofs.methods.sampling import shut
+
+        if wrong := shut(self._derivation().map(next(iter(self.functions))), self.region()):
+            raise ValueError(
+                f"the gap {wrong} is < 0 right after each launch from the region that is tried: "
+                "give it the other sign, or another region"
+            )
+
     def _wall(self, wall: str) -> int:
         if wall and wall not in self.walls:
             raise ValueError(f"no wall {wall!r}; there are {', '.join(self.walls)}")
@@ -213,6 +227,8 @@ class _Read:
         if len({*self.walls}) < len(self.walls):
             raise GrammarError("two walls have one name")
         self._motions: dict[int, list[dict[str, Any]]] = {}
+        for wall in (k for k, each in enumerate(self.impacts) if "rest" in each):
+            self.contact(wall)
 
     def map(self, before: int, after: int, timed: bool = False) -> dict[str, Any]:
         """Return the flight or flow from one wall to another as a certificate has it.

@@ -99,10 +99,12 @@ With [1.1, 1.32] | H2
 Python 3.11 | -
 Once installed | -
 With `--verbose` | -
-All claims | -
-What can be proved | -
-Results other | -
 `python -m proofs` lists | -
+| to ask | -
+| about all | -
+| what can be | -
+| the same for | -
+| where a map | -
 Of the 83 claims | counts
 Two (G8, E1) | counts
 H18, N4 | counts
@@ -115,16 +117,13 @@ The most telling | -
 | it persists | G7 G15 G16
 Section 5 on | counts
 Restitution is | -
-`theorem.save | -
-`proofs.methods` | -
-The interval arithmetic | -
+More: | -
 The checker needs | -
 It recomputes | -
 All that a sceptic | -
 Who trusts neither | -
 The quick part | -
-`reports/benchmark/benchmark.md` | -
-`reports/benchmark/zeros.md` | -
+How fast | -
 `docs/` is also | -
 `CHANGELOG.md` | -
 MIT licence | -
@@ -153,6 +152,12 @@ def numbers(sentence):
     return {*NUMBER.findall(re.sub(r"`[^`]*`", "", sentence))} - OWN - SETS
 
 
+def is_said(number, sentence, text):
+    """Whether a text has a number, whole; or its first digits, where dots stand for the others."""
+    end = "" if f"{number}..." in sentence else r"(?!\d)"
+    return re.search(rf"(?<![\d.]){re.escape(number)}{end}", text) is not None
+
+
 @pytest.mark.parametrize("page", SOURCES)
 def test_every_sentence_has_a_source(page):
     there = [*sentences((ROOT / page).read_text())]
@@ -170,5 +175,6 @@ def test_every_number_is_its_source_s(page):
         said = " ".join(json.dumps(LEDGER[x], ensure_ascii=False) for x in names if x in LEDGER)
         assert said or names[0] in OTHERS or names[0].startswith("rule:"), source
         checked = names == ["inequalities"]
-        missing += [(x, sentence[:50]) for x in numbers(sentence) if x not in said and not checked]
+        told = {x for x in numbers(sentence) if not checked and not is_said(x, sentence, said)}
+        missing += [(x, sentence[:50]) for x in told]
     assert not missing

@@ -51,7 +51,7 @@ _ASKABLE = (
 )
 _STATEMENTS = {
     "orbits": "periodic orbits of this least period exist",
-    "impact": "after these states: the next impact, or that there is none, or no flight at all",
+    "impact": "it is known what comes after these states: an impact, none ever, or no flight",
     "graze": "a value of the variable with a range is followed by a graze",
     "rest": "in contact with the wall the motion rests or sticks, at these states",
     "branches": "branches of fixed points over this range of a parameter",
@@ -208,6 +208,8 @@ def subject(options: Namespace, ranges: Mapping[str, Ends] = MappingProxyType({}
             made = System.read(options.file, **values)
         made.box |= {name: _side(value) for name, value in options.box or ()}
         made.region()
+        if isinstance(made, System):
+            made.require_launches()
     except (ValueError, TypeError) as error:
         options.parser.error(str(error))
     return made

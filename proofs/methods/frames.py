@@ -38,9 +38,13 @@ def frames(sampled: Sampled, symbols: Sequence[Floats], length: int) -> Frames:
     """
     words = list(product(range(len(symbols)), repeat=length))
     place, centres, matrices = (length - 1) // 2, [], []
+    orbits: dict[tuple[int, ...], Floats] = {}  # by the first of the words that they repeat
     for word in words:
-        turned = word[place:] + word[:place]
-        points = _shadow(sampled, symbols, turned)
+        rotations = [word[k:] + word[:k] for k in range(length)]
+        first = min(rotations)
+        if first not in orbits:
+            orbits[first] = _shadow(sampled, symbols, first)
+        points = np.roll(orbits[first], rotations.index(first) - place, axis=0)
         centres.append(points[0])
         matrices.append(_directions(along_orbit(sampled, points)))
     arrows = tuple(

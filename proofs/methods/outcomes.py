@@ -88,7 +88,7 @@ def graze(file: Derivation, function: str, box: Box) -> str:
     flight = _flight(file, function)
     free = [k for k, (low, high) in enumerate(box) if low < high]
     if len(free) != 1:
-        raise Undecided("one variable with a range is expected, and numbers for the others")
+        raise ValueError("one variable with a range is expected, and numbers for the others")
     reason, axis = "no graze is seen", free[0]
     for value, time in _touches(flight, box, axis):
         for radius, width in _SIZES:

@@ -22,8 +22,9 @@ Floats = NDArray[np.float64]
 Function = Callable[..., Sequence[Any]]
 
 _BITS = 64  # of periods
-_STEP, _TOGETHER, _LONGEST = 1 / 32, 128, 64.0  # of a flight
-_HALVINGS, _NEWTON = 8, 4
+_STEP, _LONGEST = 1 / 32, 64.0  # of a flight
+_TOGETHER, _FEWEST, _MOST = 8192, 128, 2048  # gaps of all flights at once; steps of each
+_NEWTON = 4
 _APART = 1e-6  # of points for differences
 _STARTS, _FEW = 120, 20  # points at random for a search
 
@@ -70,6 +71,21 @@ def ranges_of(map_: Map) -> tuple[Range, ...]:
     if isinstance(map_, Flight | Formulas):
         return map_.formulas.ranges if isinstance(map_, Flight) else map_.ranges
     raise TypeError(f"no way to sample a {type(map_).__name__}")
+
+
+def shut(map_: Map, region: Sequence[Range]) -> str:
+    """Return a gap that is < 0 right after all launches from a box that are tried; "" if none."""
+    if not isinstance(map_, Flight):
+        return ""
+    shares = np.random.default_rng(0).random((len(region), _STARTS))
+    low, high = np.array([[float(end) for end in side] for side in region]).T[:, :, None]
+    soon = np.full(_STARTS, _STEP / 1024)
+    sampled, formulas = Sampled(map_), map_.formulas
+    with np.errstate(all="ignore"):
+        gaps = sampled._evaluated(
+            formulas, formulas.roots[: len(map_.gaps)], [*(low + (high - low) * shares), soon]
+        )
+    return next((str(gap) for gap, x in zip(map_.walls, gaps, strict=True) if (x < 0).all()), "")
 
 
 @dataclass(frozen=True)
@@ -153,34 +169,32 @@ class Sampled:
 
         Gaps are looked at in small steps: what touches between two of them is missed.
         """
-        count = len(flight.gaps)
-        gaps = self._function(flight.formulas, flight.formulas.roots[:count])
+        gaps = self._function(flight.formulas, flight.formulas.roots[: len(flight.gaps)])
 
         def gap(t: Floats, at: Any = slice(None)) -> Floats:
             return np.array([np.broadcast_to(g, np.shape(t)) for g in gaps(*x[:, at], t)])
 
         soon, hit = np.full(x.shape[1], _STEP / 1024), np.full(x.shape[1], np.nan)
         waiting = np.flatnonzero(np.isfinite(x).all(axis=0) & (gap(soon) > 0).all(axis=0))
-        steps, now = _STEP * np.arange(1, _TOGETHER + 1), 0.0
+        now, count = 0.0, min(max(_FEWEST, _TOGETHER // max(len(waiting), 1)), _MOST)
+        steps = _STEP * np.arange(1, count + 1)
         while len(waiting) and now < _LONGEST:
-            times = np.broadcast_to((now + steps)[:, None], (_TOGETHER, len(waiting)))
+            times = np.broadcast_to((now + steps)[:, None], (count, len(waiting)))
             below = gap(times, waiting) <= 0
             stops = below.any(axis=0)
             first = stops.argmax(axis=0)
             stopped = stops.any(axis=0)
             own = below[0, first, np.arange(len(waiting))]
             hit[waiting[stopped & own]] = now + steps[first[stopped & own]]
-            waiting, now = waiting[~stopped], now + _TOGETHER * _STEP
-        low, high = np.maximum(hit - _STEP, _STEP / 1024), hit
-        for _ in range(_HALVINGS):
-            middle = (low + high) / 2
-            inside = (gap(middle) > 0).all(axis=0)
-            low, high = np.where(inside, middle, low), np.where(inside, high, middle)
+            waiting, now = waiting[~stopped], now + count * _STEP
         slope = self._function(flight.formulas, flight.gaps[0].orders[:2])
+        low = np.maximum(hit - _STEP, _STEP / 1024)
+        above, below = (slope(*x, t)[0] for t in (low, hit))
+        time = low + (hit - low) * above / (above - below)
         for _ in range(_NEWTON):
-            value, rate = slope(*x, high)
-            high = high - value / rate
-        return np.where((low <= high + _STEP) & (high <= low + 2 * _STEP), high, np.nan)
+            value, rate = slope(*x, time)
+            time = time - value / rate
+        return np.where((low <= time + _STEP) & (time <= low + 2 * _STEP), time, np.nan)
 
     def _evaluated(self, formulas: Formulas, roots: Sequence[int], x: list[Floats]) -> Floats:
         values = self._function(formulas, tuple(roots))(*x)

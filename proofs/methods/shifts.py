@@ -35,6 +35,7 @@ _MOST_PAIRS, _MOST_PROOFS, _LONGEST_WORD = 40, 3, 4
 _WORK = 8_000_000  # of all attempts at one iterate
 _PARTS = 16  # of an h-set, on which derivatives are enclosed
 _CUBE = (Fraction(-1), Fraction(1))
+_AMPLE = 0.3  # by so much sets cross that they are tried before others are looked at
 _STRIP, _LEAST = (-Fraction(1, 16), Fraction(1, 16)), Fraction(1, 2**20)
 
 
@@ -210,7 +211,7 @@ def _halved(box: Box, parts: int) -> tuple[Tree, list[Box]]:
 def _cone_tree(jacobian: Box, form: Form) -> Tree:
     def decided(part: Box) -> bool:
         try:
-            check_cone(part, form, form)
+            check_cone(part, form, form, (_BITS,))
         except Unproved:
             return False
         return True
@@ -260,17 +261,28 @@ class Candidates(NamedTuple):
                 yield laps(sampled, self.box[0])
         pairs = sorted(combinations(self.saddles, 2), key=lambda pair: distance(sampled, *pair))
         for length in range(2, _LONGEST_WORD + 1):
-            seen = []
+            seen, left = [], max(1, int(_MOST_PROOFS * self.share))
             for pair in pairs[: int(_MOST_PAIRS * self.share)]:
-                with suppress(Undecided, np.linalg.LinAlgError):
-                    thin = frames(sampled, pair, length)
-                    for candidates in (widened(thin), thin):
-                        with suppress(Undecided):
-                            seen.append((crossing(sampled, candidates), candidates))
-                            break
-            ordered = sorted(seen, key=lambda each: -each[0])
-            for _, candidates in ordered[: max(1, int(_MOST_PROOFS * self.share))]:
+                for margin, candidates in _crossing(sampled, pair, length):
+                    if margin > _AMPLE and left:
+                        left -= 1
+                        yield candidates
+                    else:
+                        seen.append((margin, candidates))
+            for _, candidates in sorted(seen, key=lambda each: -each[0])[:left]:
                 yield candidates
+
+
+def _crossing(
+    sampled: Sampled, pair: Sequence[Floats], length: int
+) -> Iterator[tuple[float, Frames]]:
+    """Yield sets over two saddle points, the wider ones if these cross, and by how much."""
+    with suppress(Undecided, np.linalg.LinAlgError):
+        thin = frames(sampled, pair, length)
+        for candidates in (widened(thin), thin):
+            with suppress(Undecided):
+                yield crossing(sampled, candidates), candidates
+                return
 
 
 def find_horseshoe(file: Derivation, function: str, candidates: Candidates) -> list[str]:

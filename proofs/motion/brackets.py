@@ -52,14 +52,13 @@ def _zero(gap_of: Gap, window: Range, time: Fraction, bits: int) -> Fraction:
     return time
 
 
-def impact_times(flights: FlightBox, window: Range, bits: int, halvings: int) -> Range:
+def impact_times(gap_of: Gap, window: Range, halvings: int) -> Range:
     """Bracket the impacts of all launches of a set, as the signs of their gaps allow.
 
     To multiples of 2^-halvings of the window: where the gap is > 0 for all launches no zero lies
     before, where it is < 0 none lies after.
     """
     (low, high), count = window, 2**halvings
-    gap_of = flights.gap_of(bits and bits + halvings)
     unit = (high - low) / count
 
     def after(k: int) -> float:

@@ -57,7 +57,7 @@ class Branch:
             else:
                 bits = FLOATS if self.floats else part.motion.bits
                 halvings = halvings_for(window, high - low, _SPARE)
-                time = impact_times(flights, window, bits, halvings)
+                time = impact_times(flights.gap_of(bits and bits + halvings), window, halvings)
             self._known[phases] = bracketed(part, phases, time), time
         return self._known[phases]
 

@@ -16,8 +16,8 @@ from intervals import Undecided
 from proofs.motion.candidate import next_impact
 from proofs.motion.many import float_gap, next_impacts
 from proofs.motion.system import System
-from proofs.plane.flights import Flights, times_for
-from proofs.plane.steps import Steps, corners
+from proofs.motion.witness import FlightBox
+from proofs.plane.steps import Steps, bracket, corners, times_for
 from proofs.trusted.certificate import texts
 from proofs.trusted.equations import launch, launch_acceleration
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -234,9 +234,9 @@ def _separation(made: Steps, after: float = 0) -> tuple[str, Fraction, Range]:
     flown = next_impacts(made.box.side, etas, nus, float(phase[1]) + _LATER, _FARTHEST).times
     if not np.isfinite(flown).all():
         raise Undecided("a flight from the separation is not seen to end")
-    flights = Flights(made.box, phase, separating=True)
+    flights = FlightBox.plastic(made.box, phase, separating=True)
     times = times_for(flights, float(flown.max()))
-    time = flights.bracket(times)
+    time = bracket(made.box, phase, times)
     witness = {"phase": texts(phase), "times": texts(times), "time": texts(time)}
     return made.add("separation", witness), phase[1], (phase[0] + time[0], phase[1] + time[1])
 
@@ -263,7 +263,7 @@ def _cell(made: Steps, phases: Range) -> Cell:
         raise Undecided("an impact is not seen to be followed by another one")
     flight, times = made.impact(phases, float(seen.max()))
     brackets = {
-        part: Flights(made.box, part).bracket(times)
+        part: bracket(made.box, part, times)
         for part in ((phases[0],) * 2, (phases[1],) * 2, phases)
     }
     points = [

@@ -4,20 +4,19 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from intervals import Interval, IntervalArray, Undecided
-from proofs.plane.flights import Flights
-from proofs.plane.steps import Steps
+from intervals import Undecided
+from proofs.motion.witness import FlightBox, number
+from proofs.plane.steps import Steps, times_for
 from proofs.trusted.certificate import texts
 from proofs.trusted.equations import Clock, Launch, gap, launch_acceleration
-from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper.beyond.singles import Numbers, Part, launched, parts, ratios, solution
 from proofs.trusted.parameters import Place
 
@@ -25,7 +24,6 @@ Floats = NDArray[np.float64]
 _SHARES = np.array([1e-6, 0.25, 0.5, 0.75, 1 - 1e-6])  # of a part, where it is looked at
 _TIMES = 24  # looked at in a table period
 _CUTS = (1, 4, 16)
-_UNITS = Fraction(1, 4), Fraction(1, 16)  # of the grid of times of a flight
 _EXACT = 1000  # denominators of times
 
 
@@ -124,38 +122,33 @@ def _stable(box: Place, n: int) -> dict[str, Any]:
 
 
 def _flight(every: list[Part]) -> list[Fraction]:
-    """Return times for the flights of some parts."""
-    failure = Undecided("no flight")
-    middle = every[len(every) // 2]
-    for unit in _UNITS:
-        try:
-            return SingleFlights(middle.at, (Fraction(0),) * 2, unit=unit, part=middle).times(
-                float(middle.whole[1])
-            )
-        except Undecided as error:
-            failure = error
-    raise failure
+    """Return times for the flights of some parts: those of each, with one window for all."""
+    flown = [
+        times_for(
+            SingleFlights(part.at.sides, (Fraction(0),) * 2, True, part=part), float(part.whole[1])
+        )
+        for part in every
+    ]
+    begin, end = min(times[-2] for times in flown), max(times[-1] for times in flown)
+    return sorted({begin, end, *(time for times in flown for time in times if time < begin)})
 
 
 def _entry(n: int, cuts: int, times: list[Fraction]) -> dict[str, Any]:
     return {"n": str(n), "cuts": str(cuts), "times": texts(times)}
 
 
-@dataclass(frozen=True, kw_only=True)
-class SingleFlights(Flights):
+@dataclass(frozen=True)
+class SingleFlights(FlightBox):
     """The flights of the orbits in a part, launched as the checker encloses it."""
 
-    part: Part
-
-    @cached_property
-    def _start(self) -> Launch:
-        side, *numbers = self.part.start
-        return Launch(side, *(None if x is None else _array(x) for x in numbers))
+    part: Part = field(kw_only=True)
 
     @property
-    def _orders(self) -> list[int]:
-        return [2] if launch_acceleration(self.part.start).lo > 0 else [1]
+    def orders(self) -> tuple[int, ...]:
+        """Which derivative of the gap is > 0 at launch."""
+        return (2,) if launch_acceleration(self.part.start).lo > 0 else (1,)
 
-
-def _array(value: Enclosure) -> IntervalArray:
-    return IntervalArray([Interval(*value.range, precision=80)])
+    def start(self, bits: int) -> Launch:
+        """Return the launch states in numbers of a precision."""
+        side, *numbers = self.part.start
+        return Launch(side, *(None if x is None else number(x.range, bits) for x in numbers))

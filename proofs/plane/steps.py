@@ -2,19 +2,32 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import product
 from typing import Any
 
 from intervals import Undecided
-from proofs.plane.flights import Flights, times_for
+from proofs.motion.brackets import impact_times
+from proofs.motion.witness import BLIND, FLOATS, FlightBox, march
 from proofs.trusted.certificate import SCHEMA, texts
+from proofs.trusted.equations import launch_acceleration
 from proofs.trusted.files import box_to_json, render
-from proofs.trusted.numbers import Range
+from proofs.trusted.flights import Motion
+from proofs.trusted.kernel.gaps import falls
+from proofs.trusted.numbers import COVER_BITS, Range
 from proofs.trusted.parameters import Place
 
 _HALVINGS = 1  # of phases whose flights are too different
+_FINEST = Fraction(1, 8), Fraction(1, 64), Fraction(1, 512)  # steps of time
+_LATER = Fraction(11, 2)  # than the last impact that is seen, at most
+_CUTS, _FALLS = 9, 4  # halvings of the window of an impact: for a bracket, and until the gap falls
+_SHARES = (
+    Fraction(1),
+    Fraction(1, 8),
+    Fraction(1, 64),
+)  # of the window, after the last impact that is seen
 
 
 @dataclass
@@ -35,7 +48,7 @@ class Steps:
 
         latest: about when the last of them comes.
         """
-        times = times_for(Flights(self.box, phases), latest)
+        times = times_for(FlightBox.plastic(self.box, phases), latest)
         return self.add("first-impact", {"phases": texts(phases), "times": texts(times)}), times
 
     def impacts(
@@ -62,6 +75,32 @@ class Steps:
                 "claims": [next(reversed(self.steps))],
             }
         )
+
+
+def times_for(flights: FlightBox, latest: float) -> list[Fraction]:
+    """Return times for rule `first-impact`, of flights that end at about `latest` at most.
+
+    Raises Undecided where none seem to prove a transversal first impact.
+    """
+    pushed = launch_acceleration(flights.start(COVER_BITS)).lo >= 0
+    flights = replace(flights, separating=flights.separating or pushed)
+    gap_of = flights.gap_of(FLOATS)
+    for finest in _FINEST:
+        with suppress(Undecided, *BLIND):
+            seen = march(flights, FLOATS, Fraction(latest) + _LATER, finest, single=True)
+            begin, end = seen.windows[0]
+            last = impact_times(gap_of, (begin, end), _CUTS)[1]
+            for share in _SHARES:
+                soon = last + (end - begin) * share
+                if falls(gap_of, (begin, soon), _FALLS):
+                    return [*seen.times[:-1], soon]
+    raise Undecided("no transversal first impact is seen")
+
+
+def bracket(box: Place, phases: Range, times: list[Fraction]) -> Range:
+    """Bracket all first impacts after some phases, in the last of the pieces between times."""
+    gap_of = Motion(box, phases, COVER_BITS).sharp_gap
+    return impact_times(gap_of, (times[-2], times[-1]), _CUTS)
 
 
 def corners(box: Place) -> tuple[list[float], list[float]]:

@@ -37,12 +37,12 @@ def on_box(prover: ReboundProver, box: Place) -> tuple[list[str], str]:
     """
     sets = prover.of.left, prover.of.right
     try:
-        return [over(prover, box, sets, _ATTEMPTS)], ""
+        return over(prover, box, sets, _ATTEMPTS), ""
     except Unproved as failure:
         return _failure(prover, box, sets) + _instead(prover, box), str(failure)
 
 
-def over(prover: ReboundProver, box: Place, sets: Sets, attempts: int) -> str:
+def over(prover: ReboundProver, box: Place, sets: Sets, attempts: int) -> list[str]:
     """Prove the horseshoe on rectangles for a box, in parts while it must be; or Unproved."""
     if not stays(box, prover.velocities, sets):
         raise Unproved("an image velocity leaves the rectangles")
@@ -50,15 +50,15 @@ def over(prover: ReboundProver, box: Place, sets: Sets, attempts: int) -> str:
         return _covered(prover, box, sets, iter(range(attempts)))
 
 
-def _covered(prover: ReboundProver, box: Place, sets: Sets, attempts: Iterator[int]) -> str:
+def _covered(prover: ReboundProver, box: Place, sets: Sets, attempts: Iterator[int]) -> list[str]:
     if next(attempts, None) is None:
         raise Unproved("the box is not proved in as many parts as are tried")
     if overshoot((*sets[0], *sets[1]), image_phases(box, prover.velocities)) <= 0:
         raise Unproved("an edge falls short at a corner of the box")
     with suppress(Unproved):
-        return prover.horseshoe(box, sets)
-    names = [_covered(prover, half, sets, attempts) for half in _halves(prover, box, sets)]
-    return prover.derive("horseshoe-union", parts=names)
+        return [prover.horseshoe(box, sets)]
+    halves = _halves(prover, box, sets)
+    return [name for half in halves for name in _covered(prover, half, sets, attempts)]
 
 
 def _halves(prover: ReboundProver, box: Place, sets: Sets) -> list[Place]:
@@ -128,7 +128,7 @@ def _instead(prover: ReboundProver, box: Place) -> list[str]:
         nearest = nearest_rectangles(prover.of, image_phases(smaller, prover.velocities))
         for sets in islice(nearest, _NEAREST):
             with suppress(Unproved):
-                return [over(prover, smaller, sets, 1)]
+                return over(prover, smaller, sets, 1)
     return []
 
 

@@ -28,7 +28,7 @@ from proofs.search.s33_steps import ReboundProver
 from proofs.search.steps import Prover
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper import GROUPS
-from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe
+from proofs.trusted.paper.s33_restitution.horseshoes import shoes
 from proofs.trusted.parameters import Parameters, Place
 
 _ATTEMPTS = 12  # with widened rectangles
@@ -144,8 +144,10 @@ def _ranges(prover: ReboundProver, exact: Place, nearest: Sets) -> list[str]:
             parts += prover.slabs(box, sets, "nu", 2 * unit)
             parts += prover.slabs(box, sets, "nu", -2 * unit)
             more = prover.slabs(replace(exact, epsilon=epsilons), sets, "epsilon", half)
-            names = [prover.derive("horseshoe-union", parts=each) for each in (parts, more) if each]
-            wide, most = (prover.get(names[k], RectangleHorseshoe).at for k in (0, -1))
+            wide, most = (
+                shoes(prover.known[name] for name in each)[-1].at for each in (parts, more or parts)
+            )
+            names = [*parts, *more]
             names += prover.beyond(exact, sets, "nu", wide.nu[1], 2 * unit)
             names += prover.beyond(exact, sets, "nu", wide.nu[0], -2 * unit)
             names += prover.beyond(exact, sets, "epsilon", most.sides[2][1], half)

@@ -155,10 +155,14 @@ class ReboundProver:
         with self.attempt():
             return self.across(self.pair(at, sets, cuts), ALL, PLAIN)
 
-    def across(self, names: Sequence[str], arrows: Sequence[Sequence[int]], cone: Cone) -> str:
+    def across(
+        self, names: Sequence[str], arrows: Sequence[Sequence[int]], cone: Cone, **more: Any
+    ) -> str:
         """Prove which rectangles F maps across which (rule horseshoe)."""
         following = [[str(k + 1) for k in each] for each in arrows]
-        return self.derive("horseshoe", rectangles=list(names), arrows=following, cone=texts(cone))
+        return self.derive(
+            "horseshoe", rectangles=list(names), arrows=following, cone=texts(cone), **more
+        )
 
     # -- words ---------------------------------------------------------------------------------
 
@@ -194,7 +198,8 @@ class ReboundProver:
                 self.bar(pair, word, True) for word in ((0, 0, 1, 1), (1, 0, 1, 1), (0, 1, 1, 1))
             ]
             words.append(self.constant_word(pair, (1,)))
-            return self.derive("golden-mean", rectangles=list(pair), part=part, words=words)
+            wider = {"rectangles": list(pair), "words": words}
+            return self.across([pair[0], part], ((0, 1), (0,)), PLAIN, wider=wider)
 
     # -- states on edges -----------------------------------------------------------------------
 

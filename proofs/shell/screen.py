@@ -166,11 +166,11 @@ def show_verdicts(rows: Sequence[Decided], *, verbose: bool = True) -> None:
             say(f"     {row.why}", hanging=0)
 
 
-def in_a_line(row: Decided) -> str:
+def in_a_line(row: Decided, width: int = _LINE) -> str:
     """Return a claim in a line, without the oscillator if that stands at its beginning."""
     said = _OSCILLATOR.sub("", row.statement)
     line = f"{row.id:4} {row.verdict.value:11} {said}"
-    return line if len(line) <= _LINE else f"{line[: _LINE - 4].rsplit(' ', 1)[0]} ..."
+    return line if len(line) <= width else f"{line[: width - 4].rsplit(' ', 1)[0]} ..."
 
 
 def gist(theorem: str) -> str:

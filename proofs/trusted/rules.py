@@ -52,8 +52,6 @@ RULES: Mapping[str, str] = MappingProxyType(
         "covering-graph": "kernel.coverings.covering_graph",
         "stable-orbit": "kernel.loops.prove_stable_orbit",
         "dimension": "paper.s32_sets.repeller.dimension",
-        "horseshoe-union": "paper.s33_restitution.horseshoes.union",
-        "golden-mean": "paper.s33_restitution.words.golden_mean",
         "separation": "paper.s34_circle.landing.separation",
         "lands": "paper.s34_circle.landing.lands",
         "never-impacts": "paper.s34_circle.landing.never_impacts",

@@ -14,8 +14,7 @@ _BLIND = {
     "roots",
     "parts",
     "work",
-    "_windows",
-    "_last",
+    "_known",
     "_taken",
     "_proved",
 }  # the checker's machinery inside of conclusions

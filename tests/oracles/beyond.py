@@ -50,7 +50,7 @@ def flights_end(view, rng):
 
 
 def comes_to_rest(view, rng):
-    """The table pushes at all phases; rebounds from impacts at random become weaker, to nothing."""
+    """The table pushes at all phases; after impacts at random each rebound is weaker."""
     if not all(_pushes(view, 180)):
         return ["at some phase the mass leaves"]
     side = 1 if view.nu > 0 else -1
@@ -62,9 +62,9 @@ def comes_to_rest(view, rng):
             found = flight(view.eta, view.nu, phase, view.epsilon, gamma)
             if view.epsilon * Fraction(speed) < 1e-5 or not isinstance(found, Impact):
                 break
+            if found.speed > speed * (1 + 1e-9):
+                return ["a rebound is no weaker than the one before"]
             phase, speed = Fraction(found.phase), float(found.speed)
-        else:
-            return ["200 impacts later it has not come to rest"]
         if found in ("none", "touches"):
             return [f"after a rebound: {found}"]
     return []

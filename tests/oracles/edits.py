@@ -264,21 +264,3 @@ def put(value: Any, path: tuple, chance: Chance) -> None:
     edits = {list: edit_list, dict: edit_object, str: edit_text}
     if type(old) in edits and old:
         value[path[-1]] = edits[type(old)](old, chance)
-
-
-OTHER = (None, True, [], {}, "", "x", "0", "-1", "+1", "2/2", "1e3", "nan", "9" * 4000, "\u0661")
-
-
-def edit_anywhere(document: dict[str, Any], chance: Chance) -> dict[str, Any]:
-    """Edit whatever is in a certificate, its form too: what is no number, of another type, gone."""
-    made = copy.deepcopy(document)
-    while not (path := place(made, chance)):
-        pass
-    if chance.random() < 0.8:
-        put(made, path, chance)
-        return made
-    inner = made
-    for key in path[:-1]:
-        inner = inner[key]
-    inner[path[-1]] = chance.choice((*OTHER, *made["steps"], *made["functions"]))
-    return made

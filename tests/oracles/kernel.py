@@ -13,7 +13,7 @@ from tests.oracles.ode import LONG, Solver
 
 STEP_OF_FLIGHTS, SHORT = 1 / 10, 1 / 160
 NARROW = 1e-4  # boxes in which zeros are looked for in short steps
-FLOATS = LONG._replace(step=1 / 8, row=LONG.row[:6])  # a little better than floats
+FLOATS = LONG._replace(step=1 / 40, row=LONG.row[:6])  # about as good as floats
 
 
 def values(function, point, step=STEP_OF_FLIGHTS):

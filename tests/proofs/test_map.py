@@ -263,7 +263,7 @@ def test_a_graze_is_between_an_impact_and_none():
     assert start < impact.bounds[-1][0] < end and none.kind == "NoImpact"
     with pytest.raises(Undecided, match="no graze is seen"):
         BALL.graze(phi="0.3", v=("1.5", "1.6"))
-    with pytest.raises(Undecided, match="one variable with a range"):
+    with pytest.raises(ValueError, match="one variable with a range"):
         BALL.graze(phi="0.3", v="1.5")
 
 
@@ -311,7 +311,9 @@ impact = [{ gap = "y - sin(phi + t)", phi = "phi + t", v = "cos(phi + t)" }]
         ("= -g", "= -g*y^2", "not linear"),
         ('"v"] }', '"v"], form = "sin(phi) + v*t + g*t^2/2" }', "not proved to solve"),
         ('"v"] }', '"v"], form = "cos(phi) + v*t - g*t^2/2" }', "not proved to start"),
-        ('"cos(phi + t)"', '"cos(phi + s)"', "unknown variable 's'"),
+        ('"cos(phi + t)"', '"cos(phi + s)"', "unknown variable 's': give it a value"),
+        ("{ gap =", '{ rest = { q = "1" }, gap =', "rest: q is none of the variables"),
+        ("{ gap =", '{ rest = "v", gap =', "'rest' is a table"),
         (', v = "cos(phi + t)"', "", "no 'v'"),
         ("y - sin(phi + t)", "t*(y - y)", "first derivatives"),
     ],

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from intervals import Undecided
-from proofs.report.figures.figure import Figure, all_of, the
+from proofs.report.figures.figure import Figure, all_of
 from proofs.report.figures.style import BLACK, BLUE, RED, dots, proved_boxes, sheet
 from proofs.search.s33_rectangles import state_after
 from proofs.trusted.kernel.context import Context
@@ -15,7 +15,7 @@ from proofs.trusted.kernel.rectangles import Rectangle
 from proofs.trusted.numbers import Range, show_range
 from proofs.trusted.paper.s33_restitution.horseshoes import shoes
 from proofs.trusted.paper.s33_restitution.rectangles import Strips
-from proofs.trusted.paper.s33_restitution.words import GoldenMean
+from proofs.trusted.paper.s33_restitution.words import golden_means
 from proofs.trusted.parameters import Place
 
 if TYPE_CHECKING:
@@ -27,8 +27,11 @@ _EDGE = 40  # samples of a side
 
 def plot(proved: Context) -> Drawing:
     """Draw the printed rectangles and the corrected ones, each with their images."""
-    printed = the(proved, GoldenMean)
-    known = shoes(all_of(proved, Horseshoe))
+    horseshoes = all_of(proved, Horseshoe)
+    printed = next(iter(golden_means(horseshoes)), None)
+    if printed is None:
+        raise Undecided("it is not proved which orbits stay in the printed rectangles")
+    known = shoes(horseshoes)
     corrected = next((x for x in known if x.at == printed.at), None)
     if corrected is None:
         raise Undecided("no horseshoe is proved at the printed epsilon")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
@@ -13,6 +14,7 @@ from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.covers import HSet, LocalMap, beyond, cube
 from proofs.trusted.kernel.enclose import (
+    PRECISIONS,
     Box,
     Enclosures,
     Matrix,
@@ -135,9 +137,14 @@ def _inside(one: Box, two: Box) -> bool:
     return all(map(within, one, two))
 
 
-def check_cone(matrices: Box, before: Form, after: Form) -> None:
+def check_cone(
+    matrices: Box, before: Form, after: Form, precisions: Sequence[int] = PRECISIONS
+) -> None:
     """Prove D^T Q_M D - Q_N positive definite for all D within bounds."""
-    if not any(tried(lambda bits: positive_definite(_difference(matrices, before, after, bits)))):
+    found = tried(
+        lambda bits: positive_definite(_difference(matrices, before, after, bits)), precisions
+    )
+    if not any(found):
         raise Unproved(f"the cone condition is not proved for derivatives in {shown(matrices)}")
 
 

@@ -22,6 +22,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
+from itertools import islice
 from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
@@ -52,7 +53,7 @@ LATEST = Fraction(1024)
 _MOST_MOTIONS, _MOST_GAPS, _MOST_ORDERS = 6, 6, 4
 _ENOUGH = 1024  # moves by a smaller part of the width do not pay
 _COARSE = 64  # bits, in which a window is looked for first
-_REMEMBERED = 8  # windows of times, for boxes inside boxes
+_REMEMBERED, _AROUND = 256, 16  # impacts; of these, the last, in whose boxes others are looked for
 
 
 class Motion(NamedTuple):
@@ -86,8 +87,7 @@ class Flight:
     gaps: tuple[Gap, ...]
     motions: tuple[Motion, ...]
     latest: Fraction = LATEST
-    _windows: list[tuple[Sequence[Enclosure], Range]] = field(default_factory=list)
-    _last: list[Impact] = field(default_factory=list)
+    _known: dict[tuple[int, ...], Impact] = field(default_factory=dict)
     _taken: dict[int, list[int]] = field(default_factory=dict)  # steps of the last search, by bits
 
     @property
@@ -199,23 +199,26 @@ class Flight:
         return self._impact(x).time
 
     def _impact(self, x: Sequence[Enclosure]) -> Impact:
-        if not (self._last and _same(self._last[0].launches.states, x)):
+        key = (x[0].bits, *(end for side in x for end in (side.lo, side.hi)))
+        if key not in self._known:
             launches = Launches(self, list(x), enclosed(self.formulas.ranges, x[0].bits))
-            self._last[:] = [Impact.sharp(launches, self._window(launches))]
-        return self._last[0]
+            impact = Impact.sharp(launches, self._window(launches))
+            if len(self._known) == _REMEMBERED:
+                del self._known[next(iter(self._known))]
+            self._known[key] = impact
+        return self._known[key]
 
     def _window(self, launches: Launches) -> Range:
-        for box, window in self._windows:
-            if _within(launches.states, box):
-                return window
+        """Return times between which the first zeros are; of a box inside another one its times."""
+        for impact in islice(reversed(self._known.values()), _AROUND):
+            if _within(launches.states, impact.launches.states):
+                return impact.time.range
         try:
-            window = self._searched(launches.coarse)
+            return self._searched(launches.coarse)
         except Unproved:
             if launches.coarse is launches:
                 raise
-            window = self._searched(launches)
-        self._windows[:] = [(launches.states, window), *self._windows[: _REMEMBERED - 1]]
-        return window
+            return self._searched(launches)
 
     def _searched(self, launches: Launches) -> Range:
         search = FirstZero(launches, self.gaps[0], self._taken.get(launches.states[0].bits, []))
@@ -282,7 +285,6 @@ class Impact:
     """When all flights from a box end."""
 
     launches: Launches
-    window: Range
     time: Enclosure
 
     @classmethod
@@ -298,7 +300,7 @@ class Impact:
             while t.hi - t.lo > enough and _ENOUGH * (width - t.hi + t.lo) > width:
                 width, middle = t.hi - t.lo, (t.lo + t.hi) >> 1
                 t = _newton(launches, t, is_plain, *((t.lo, t.hi) if is_box else (middle,)))
-        return cls(launches, window, t)
+        return cls(launches, t)
 
 
 def _newton(launches: Launches, t: Enclosure, is_plain: bool, *starts: int) -> Enclosure:
@@ -334,10 +336,6 @@ def _fall(launches: Launches, t: Enclosure) -> Enclosure:
     if rate.hi >= 0:
         raise Unproved(f"the impact is not proved transversal, {shown(launches.states)}")
     return rate
-
-
-def _same(one: Sequence[Enclosure], two: Sequence[Enclosure]) -> bool:
-    return one[0].bits == two[0].bits and _within(one, two) and _within(two, one)
 
 
 def _within(x: Sequence[Enclosure], box: Sequence[Enclosure]) -> bool:

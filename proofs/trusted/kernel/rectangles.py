@@ -24,6 +24,7 @@ from proofs.trusted.numbers import Range, between, ceil_text, hull, increasing
 
 Arrows = Sequence[Sequence[int]]  # from each rectangle to these
 _MOST_PARTS = 4096
+_MOST = 64  # rectangles together
 
 
 @dataclass(frozen=True)
@@ -154,3 +155,12 @@ def follows(rectangles: Sequence[Rectangle], arrows: Arrows) -> bool:
         for part in each.parts
         if k not in following
     )
+
+
+def read_rectangles(
+    context: Context, names: Reader, least: int = 1, most: int = _MOST
+) -> list[Rectangle]:
+    """Read the names of rectangle steps that obey hypothesis 1 of `horseshoe`."""
+    rectangles = [context.step(name, Rectangle) for name in names.items(least, most)]
+    require_together(rectangles)
+    return rectangles

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise
+from itertools import pairwise, product
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -12,8 +13,9 @@ from proofs.trusted.kernel.conclusion import Conclusion, given
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.differential import image_of
 from proofs.trusted.kernel.enclose import Box, integer
-from proofs.trusted.kernel.horseshoe import read_rectangles
 from proofs.trusted.kernel.maps import Map
+from proofs.trusted.kernel.meter import METER
+from proofs.trusted.kernel.rectangles import read_rectangles
 from proofs.trusted.numbers import floor_text, show_range, within
 
 _LONGEST = 10  # symbols of a barred word
@@ -82,3 +84,17 @@ def barred_word(context: Context, reader: Reader) -> BarredWord:
         bound = sign * min(sign * extreme, sign * last[end])
         short = sign * (last[1 - end] - extreme)
     return BarredWord(maps[0].function, tuple(each.box for each in maps), word, short)
+
+
+def never_ends(words: Sequence[Sequence[int]], pair: tuple[int, int], count: int) -> bool:
+    """Whether every word of some length in so many symbols that ends in a pair contains a word."""
+    longest = max(map(len, words), default=0)
+    METER.get().spend(len(words) * count**longest)
+    return longest > 1 and all(
+        any(
+            (*start, *pair)[k : k + len(word)] == tuple(word)
+            for word in words
+            for k in range(longest)
+        )
+        for start in product(range(count), repeat=longest - 2)
+    )

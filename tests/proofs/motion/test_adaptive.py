@@ -127,7 +127,7 @@ def test_times_after_thin_phases_are_no_longer_than_a_file_takes():
     low = Fraction("1.11")
     (part,) = cover_by(flights(PAPER, low, low + Fraction(1, 10**500)))
     assert part.transversal and max(len(str(time)) for time in part.times) < 3000
-    early, late = impact_times(part.flights, part.windows[0], COVER_BITS, 300)
+    early, late = impact_times(part.flights.gap_of(COVER_BITS + 300), part.windows[0], 300)
     assert part.windows[0][0] <= early < late <= part.windows[0][1]
 
 
@@ -325,7 +325,7 @@ def test_the_last_positive_value_is_found_in_few_steps(shape):
 def test_a_window_is_narrowed_to_the_impacts_of_all_launches(bits):
     box = flights(PAPER, Fraction("1.11"), Fraction("1.12"))
     (window,) = march(box, bits).windows
-    low, high = impact_times(box, window, bits, 16)
+    low, high = impact_times(box.gap_of(bits and bits + 16), window, 16)
     ends = [flights(PAPER, x) for x in box.phases]
     times = [t for end in ends for t in impact_time(end, locate(end).windows[0], 40)]
     assert window[0] < low < min(times) and max(times) < high < window[1]

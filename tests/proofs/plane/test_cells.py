@@ -11,11 +11,12 @@ from intervals import Undecided
 from proofs.motion.candidate import next_impact
 from proofs.motion.many import next_impacts
 from proofs.motion.system import System
+from proofs.motion.witness import FlightBox
 from proofs.plane import settling
 from proofs.plane.cells import decide
-from proofs.plane.flights import Flights, times_for
 from proofs.plane.head import Here, executor
 from proofs.plane.horseshoe import Sets, _pieces, propose
+from proofs.plane.steps import bracket, times_for
 from proofs.plane.summary import joined, merged
 from proofs.search.shifts import pieces
 from proofs.trusted.atlas import Region
@@ -54,12 +55,14 @@ def test_next_impacts_of_many_are_those_of_one():
 
 
 def test_times_are_those_of_the_rule_and_none_where_flights_differ():
-    times = Flights(box("0.212", "-0.2"), (F("1.1"), F("1.12"))).times(25.5)
+    here, phases = box("0.212", "-0.2"), (F("1.1"), F("1.12"))
+    times = times_for(FlightBox.plastic(here, phases), 25.5)
     assert times == sorted(times) and 23 < times[-2] < times[-1] < 26
-    with pytest.raises(Undecided):  # some of these graze the table, and fly on
-        times_for(Flights(box("0.212", "-0.2"), (F("1.1"), F("1.3"))), 60.0)
-    with pytest.raises(Undecided):  # some stick
-        Flights(box("0.212", "-0.2"), (F("3.2"), F("3.6"))).times(60.0)
+    early, late = bracket(here, phases, times)
+    assert times[-2] <= early < late <= times[-1] and late - early < times[-1] - times[-2]
+    for wrong in ((F("1.1"), F("1.3")), (F("3.2"), F("3.6"))):  # some graze and fly on; some stick
+        with pytest.raises(Undecided):
+            times_for(FlightBox.plastic(here, wrong), 60.0)
 
 
 def test_sets_of_a_neighbour_are_tried_first():

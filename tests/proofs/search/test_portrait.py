@@ -7,7 +7,7 @@ from itertools import pairwise
 import pytest
 
 from proofs.motion.system import System
-from proofs.search.orbits import FALLS, FLIES, RISES, STICKS, TOUCHES
+from proofs.search.orbits import FALLS, FLIES, RISES, STICKS, TOUCHES, stable_cycle
 from proofs.search.portrait import fates, rebounding_fates, rows, stretches
 from tests.oracles.motion import Impact, flight
 
@@ -81,3 +81,19 @@ def test_stable_orbits_with_restitution():
     found = rebounding_fates(System(F("0.6"), F("-0.75")), 0.3, 12, 100)
     assert any(fate.name == "a stable orbit of period 1" for fate in found)
     assert math.isclose(sum(fate.share for fate in found), 1)
+
+
+@pytest.mark.parametrize(("nu", "start", "period"), [("1.62", 0.76, 1), ("1.635", 0.73, 2)])
+def test_a_slow_orbit_is_found_with_its_least_period(nu, start, period):
+    """Multipliers -0.9935 and 0.9967: after 400 impacts others are still away from them."""
+    cycle = stable_cycle(System(F("0.33"), F(nu)), start, 400.0)
+    found = [flight(F("0.33"), F(nu), F(seen.phase), latest=400) for seen in cycle]
+    ends = [seen.phase for seen in (*cycle[1:], cycle[0])]
+    assert len(cycle) == period
+    assert all(abs(x.phase - end) < 1e-9 for x, end in zip(found, ends, strict=True))
+    assert 0.99 < abs(math.prod(x.slope for x in found)) < 1
+
+
+def test_no_stable_orbit_is_near_an_unstable_one():
+    """At (0.2121, -0.2) f has an unstable fixed point near 1.105."""
+    assert stable_cycle(System(F("0.2121"), F("-0.2")), 1.1055, 400.0) == []

@@ -340,6 +340,8 @@ REFUSED = {  # arguments, and what the line says
         ("--map x/2 --ask impact:x=1", "asked of systems"),
         ("--example wall --ask impact:b=1", "a value for each variable"),
         ("--example wall --ask rest:a=1", "no 'rest'"),
+        ("--example wall --ask graze:a=1,v=-1", "one variable with a range"),
+        ("--example wall --box v=1:3", "the gap -x is < 0 right after each launch"),
         *((f"{LOGISTIC} --ask {x}:r=2:4,q=1:2", "") for x in ("branches", "flips")),
     ],
 }

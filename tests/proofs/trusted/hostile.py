@@ -20,6 +20,7 @@ from proofs.trusted.atlas import Region
 from proofs.trusted.certificate import LEDGER, MANIFEST, MAX_BYTES
 from proofs.trusted.paper import GROUPS
 from tests.proofs.trusted.edits import at, put, walk
+from tests.proofs.trusted.kernel.hostile import HOSTILE, source_of
 from tests.proofs.trusted.kernel.lemma_examples import EXAMPLES, text
 
 ROOT = Path(__file__).parents[3]
@@ -33,7 +34,8 @@ MOST = 9_900  # entries of a list
 @cache
 def sources():
     """Texts of certificates that are accepted, by name."""
-    paths = [*ROOT.glob("reports/*.json"), *ROOT.glob("reports/atlas/*/cell-*.json")]
+    kinds = "*.json", "atlas/*/cell-*.json", "systems/*/*.json"
+    paths = [path for kind in kinds for path in ROOT.glob(f"reports/{kind}")]
     found = {str(path.relative_to(ROOT)): path.read_text() for path in sorted(paths)}
     found |= {f"lemma {name}": text(name) for name in EXAMPLES}
     return {name: held for name, held in found.items() if '"steps"' in held}
@@ -189,7 +191,13 @@ def shapes(rng):
     return f"shape: {name}", held
 
 
-FILES = copies, repeated, finer, digits, swollen, shapes
+def busy(rng):
+    """Formulas, trees and maps in which work could hide."""
+    name = rng.choice(sorted(HOSTILE))
+    return f"busy: {name}", source_of(name)
+
+
+FILES = copies, repeated, finer, digits, swollen, shapes, busy
 
 
 def atlases(rng):

@@ -73,10 +73,15 @@ def test_an_atlas_needs_no_database():
 
 @pytest.mark.parametrize("code", [None, ALONE], ids=["plain", "others refused"])
 def test_accepts_with_the_standard_library_alone(code):
-    result = run(corpus.path_of("accepted/horseshoe"), code=code)
-    assert result.stderr == ""
-    assert result.returncode == 0
-    lines = [line.split() for line in result.stdout.splitlines()[1:]]
+    brief, whole = (
+        run(corpus.path_of("accepted/horseshoe"), *more, code=code) for more in ((), ["--verbose"])
+    )
+    assert brief.stderr == whole.stderr == ""
+    assert brief.returncode == whole.returncode == 0
+    lines = brief.stdout.splitlines()[1:]
+    assert max(map(len, lines)) <= 100
+    assert {line.split()[0]: line.split()[1] for line in lines} == corpus.VERDICTS
+    lines = [line.split() for line in whole.stdout.splitlines()[1:]]
     assert {line[0]: line[1] for line in lines if line[0] != "corrected,"} == corpus.VERDICTS
     assert sum(line[0] == "corrected," for line in lines) == 3  # beside H2, H5 and H11
 

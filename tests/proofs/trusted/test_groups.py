@@ -115,7 +115,7 @@ NEEDED = {  # the rules of whatever is needed, where there are other witnesses o
     "H2": "point",
     "H5": "slope-range",
     "N1": "",
-    "N3": "golden-mean",
+    "N3": "horseshoe",
     "N4": "barred-word",
     "N5": "horseshoe",
     "H13": "moran-root staying-set",

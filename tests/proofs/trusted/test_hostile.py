@@ -1,6 +1,5 @@
 """Files made to eat the checker's time or memory: each is refused in seconds, in a line."""
 
-import copy
 import json
 import os
 import subprocess
@@ -12,7 +11,6 @@ import pytest
 
 from proofs.check import main
 from proofs.trusted.certificate import LEDGER, MANIFEST, Malformed, Reader
-from proofs.trusted.files import render as text_of
 from proofs.trusted.kernel.arithmetic import rational
 from proofs.trusted.kernel.meter import DEFAULT, METER, Exhausted, metered
 from proofs.trusted.manifest import check_ledger, check_manifest
@@ -21,89 +19,10 @@ from tests.proofs.shell.processes import started, wait_until_it_listens
 from tests.proofs.trusted import corpus
 from tests.proofs.trusted.hostile import ROOT, SHAPES, checked, is_fair, made
 from tests.proofs.trusted.kernel.hostile import source_of
-from tests.proofs.trusted.renewing import renewed
-
-LONG = 10**2900
-
-
-def horseshoe():
-    return json.loads(corpus.path_of("accepted/horseshoe").read_text(encoding="utf-8"))
-
-
-def first(document, rule):
-    return next(name for name, step in document["steps"].items() if step["rule"] == rule)
-
-
-def with_times(times):
-    document = horseshoe()
-    step = document["steps"][first(document, "first-impact")]
-    step["witness"]["times"] = [str(t) for t in times]
-    return text_of(document)
-
-
-def with_copies(rule, count, change=lambda witness, i: None):
-    document = horseshoe()
-    step = document["steps"][first(document, rule)]
-    for i in range(count):
-        document["steps"][f"copy{i}"] = copy.deepcopy(step)
-        change(document["steps"][f"copy{i}"]["witness"], i)
-    return text_of(document)
-
-
-def thin_roots(witness, i):
-    root = Fraction(44, 100)
-    witness["root"] = [str(root), str(root + Fraction(1, 10**1100 + i))]
-
-
-def with_points(count):
-    document = horseshoe()
-    witness = document["steps"][first(document, "slope-range")]["witness"]
-    point = witness["points"][0]
-    step = Fraction(1, 10**9)
-    witness["points"] = [
-        {**point, "phase": str(Fraction(point["phase"]) + i * step)} for i in range(count)
-    ]
-    witness["pieces"] = witness["pieces"][:1] * (count - 1)
-    return text_of(document)
-
-
-HOSTILE = {
-    "ten thousand times": lambda: with_times([Fraction(k, 10007) for k in range(1, 10001)]),
-    "times of 2900 digits": lambda: with_times([Fraction(k, LONG) for k in range(1, 600)]),
-    "three thousand steps": lambda: with_copies("first-impact", 3000),
-    "thin brackets": lambda: with_copies("moran-root", 500, thin_roots),
-    "nine thousand points": lambda: with_points(9000),
-    "all steps, by all claims": lambda: with_all_named("avoids", 6000, 40),
-}
-
-
-def with_all_named(rule, count, claims):
-    """Undecided claims, each of which names all of many steps."""
-    document = horseshoe()
-    names = [f"c{i:x}" for i in range(count)]
-    step = document["steps"][first(document, rule)]
-    document["steps"] |= dict.fromkeys(names, step)
-    document["claims"] = [{**document["claims"][0], "proof": names[:1]}]
-    claim = {**renewed(document)["claims"][0], "proof": names, "quantities": {}}
-    document["claims"] = [claim] * claims
-    return json.dumps(document, separators=(",", ":"))
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("part", [20, pytest.param(1, marks=pytest.mark.long)])
-@pytest.mark.parametrize("name", HOSTILE)
-def test_hostile_files_end_soon(name, part, tmp_path):
-    """Within a part of the work that a check is given, and of the time."""
-    path = tmp_path / "hostile.json"
-    path.write_text(HOSTILE[name](), encoding="utf-8")
-    taken = checked(name, path, options=["--work", str(DEFAULT // part)])
-    assert taken.status in (1, 2) and is_fair(taken)
-    assert "$" in taken.said or "--work" in taken.said
-    assert taken.megabytes < 200 and taken.seconds < 2 + 15 / part
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", range(16))
 def test_a_hostile_file_costs_little(seed, tmp_path):
     taken = checked(*made(seed, tmp_path), options=["--work", str(DEFAULT // 20)])
     assert is_fair(taken) and taken.megabytes < 200 and taken.seconds < 3, taken
@@ -140,10 +59,10 @@ def test_what_is_read_takes_little_room(name, tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["three thousand steps", "times of 2900 digits"])
+@pytest.mark.parametrize("name", ["wide_tree_of_powers", "long_coefficients"])
 def test_a_check_is_ended_within_a_second(name, tmp_path):
     path = tmp_path / "hostile.json"
-    path.write_text(HOSTILE[name](), encoding="utf-8")
+    path.write_text(source_of(name))
     with started("check", [str(path), "--work", str(10**9)]) as process:
         wait_until_it_listens(process)
         time.sleep(0.1)
@@ -266,7 +185,6 @@ def test_a_file_that_needs_more_work_is_status_1_and_says_how_much(capsys):
     assert leave.value.code == 2
 
 
-@pytest.mark.skipif(not hasattr(os, "posix_spawn"), reason="needs processes")
 @pytest.mark.parametrize(
     ("text", "path"),
     [

@@ -5,7 +5,6 @@ digits). At phase 1.2 the gap has a minimum of 1.06e-5 near time 25.874 and vani
 56.16847...; at phase 1.15 it vanishes at 25.32582... and is positive again at 27.
 """
 
-import copy
 from fractions import Fraction
 from functools import cache
 
@@ -15,14 +14,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mpmath import mp, mpf
 
-from proofs.trusted.certificate import Malformed, Reader
+from proofs.trusted.certificate import Malformed
 from proofs.trusted.flights import FirstImpact, Motion, phase_after
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.context import Context
 from proofs.trusted.parameters import PAPER
-from proofs.trusted.rules import RULES, find_rule
+from proofs.trusted.rules import RULES
 from proofs.trusted.slopes import comes_to
 from tests.proofs.trusted.paper import reference
+from tests.proofs.trusted.paper.steps import apply as step
+from tests.proofs.trusted.paper.steps import exact
 
 TO_25 = ["1", "2", "4", "8", "12", "16", "20", "22", "24", "49/2", "25"]
 IMPACT_115 = {"phases": ["23/20", "23/20"], "times": [*TO_25, "251/10", "126/5", "51/2"]}
@@ -41,11 +41,6 @@ numbers = st.fractions(0, 1000, max_denominator=10**6)
 # -- witnesses -------------------------------------------------------------------------------------
 
 
-def step(rule, witness, known=None, of=PAPER):
-    context = Context(of, known=dict(known or {}))
-    return find_rule(rule)(context, Reader(copy.deepcopy(witness)))
-
-
 def times(*values):
     return [str(Fraction(value)) for value in values]
 
@@ -53,11 +48,6 @@ def times(*values):
 def flight_time(phase):
     """The true time of the first impact, correct to some 40 digits."""
     return reference.first_impact(mpf("0.2121"), mpf("-0.2"), mpf(phase))[0]
-
-
-def exact(value):
-    """A 50-digit number as a rational."""
-    return Fraction(mp.nstr(value, 45))
 
 
 def bracket(phase, reach="1e-20"):

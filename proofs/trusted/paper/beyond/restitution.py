@@ -9,7 +9,7 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.stable import StableCycle
 from proofs.trusted.paper.beyond.attractors import Leaves, first_proved
-from proofs.trusted.paper.s33_restitution.horseshoes import shoes
+from proofs.trusted.paper.s33_restitution.horseshoes import shoes_at
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts
 from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
 from proofs.trusted.paper.s34_circle.touching import touching_family
@@ -65,7 +65,7 @@ def _rest(of: Parameters) -> Conclusion | None:
 
 
 def _chaotic(of: Parameters, found: Found) -> Decision:
-    horseshoes, none = shoes(found.here), _rest(of)
+    horseshoes, none = shoes_at(of, found), _rest(of)
     if horseshoes:
         return decided(Verdict.VERIFIED, horseshoes[0])
     return undecided("no horseshoe is proved") if none is None else decided(Verdict.REFUTED, none)

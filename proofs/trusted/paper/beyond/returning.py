@@ -26,6 +26,8 @@ from proofs.trusted.numbers import (
 )
 from proofs.trusted.paper.s34_circle.landing import Lands, NeverImpacts, Separation
 
+_MOST_NAMED = 12  # cells
+
 
 def _named(cells: Sequence[Range]) -> str:
     return ", ".join(map(show_range, cells)) + ", mod 2 pi"
@@ -147,7 +149,11 @@ class SticksOnce(Conclusion):
 
     @property
     def sentence(self) -> str:
-        impacts = f" makes impacts at phases in {_named(self.cells)}," if self.cells else ""
+        many = len(self.cells) > _MOST_NAMED
+        named = (
+            f"{len(self.cells)} impacts" if many else f"impacts at phases in {_named(self.cells)}"
+        )
+        impacts = f" makes {named}," if self.cells else ""
         if isinstance(self.end, StableOrbit):
             end = (
                 f"makes all {'further ' * bool(self.cells)}impacts at phases in "

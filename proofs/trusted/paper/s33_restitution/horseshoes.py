@@ -10,17 +10,16 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion, place_of
-from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.horseshoe import Horseshoe
 from proofs.trusted.kernel.laps import signed
 from proofs.trusted.kernel.rates import Rates, rates, size
 from proofs.trusted.kernel.rectangles import Rectangle, require_together
 from proofs.trusted.numbers import Phases, Range, ceil_text, floor_text, hull, show, show_range
 from proofs.trusted.paper.s33_restitution.rectangles import Blocks, Strips, sets_of
-from proofs.trusted.parameters import Place
+from proofs.trusted.parameters import Parameters, Place
+from proofs.trusted.verdicts import Found
 
 NAMES = "phi", "gamma"
 
@@ -139,47 +138,46 @@ def restituting(shoe: Horseshoe) -> RectangleHorseshoe:
 
 
 def shoes(found: Iterable[Conclusion]) -> list[RectangleHorseshoe]:
-    """Return what conclusions say of V1 and V2."""
-    proved = []
+    """Return what conclusions say of V1 and V2, for as large boxes of oscillators as they do."""
+    proved: list[RectangleHorseshoe] = []
     for each in found:
         with suppress(Unproved):
             if isinstance(each, RectangleHorseshoe | Horseshoe):
-                proved.append(restituting(each) if isinstance(each, Horseshoe) else each)
+                shoe = restituting(each) if isinstance(each, Horseshoe) else each
+                while other := next((x for x in proved if adjoin(x, shoe)), None):
+                    proved.remove(other)
+                    shoe = union(other, shoe)
+                proved.append(shoe)
     return proved
 
 
-def union(context: Context, reader: Reader) -> RectangleHorseshoe:
-    """Rule `horseshoe-union`: {parts: names of horseshoes, or of unions}.
+def shoes_at(of: Parameters, found: Found) -> list[RectangleHorseshoe]:
+    """Return those that are about a statement's oscillator."""
+    return [each for each in shoes(found.everywhere) if each.at.holds(of)]
 
-    It is about oscillators: two functions of a file have no hull.
 
-    Hypotheses: all are on the same rectangles; each is for a box of oscillators that agrees with
-    the hull of those before it but for one side, where they meet. Conclusion: a horseshoe for the
-    hull of all boxes, which is their union, with the worst of the bounds. Proof. Boxes that agree
-    but for one side, on which they meet, have no oscillator between them: each of the hull is in
-    one of the boxes, whose step is about it and these rectangles.
+_SIDES = "eta", "nu", "epsilon"
+
+
+def adjoin(one: RectangleHorseshoe, two: RectangleHorseshoe) -> bool:
+    """Whether horseshoes have the same rectangles and cone, and their boxes meet and form a box."""
+    if (one.strips, one.rates.cone) != (two.strips, two.rates.cone):
+        return False
+    pairs = zip(one.at.sides, two.at.sides, strict=True)
+    apart = [(x, y) for x, y in pairs if x != y]
+    return len(apart) < 2 and all(x[0] <= y[1] and y[0] <= x[1] for x, y in apart)
+
+
+def union(one: RectangleHorseshoe, two: RectangleHorseshoe) -> RectangleHorseshoe:
+    """Theorem. Horseshoes that `adjoin` are one for the hull of both boxes, with the worst of the
+    bounds. Proof. Boxes that agree but for one side, on which they meet, have no oscillator
+    between them: each of the hull is in one of them.
     """
-    (names,) = reader.fields("parts")
-    parts = []
-    for name in names.items(least=1):
-        step = context.known.get(name.string())
-        if not isinstance(step, Horseshoe | RectangleHorseshoe):
-            raise name.fail("names no earlier step that is a horseshoe")
-        parts.append(restituting(step) if isinstance(step, Horseshoe) else step)
-    first = parts[0]
-    at, sets = first.at, first.strips
-    for part in parts:
-        sides = ("eta", "nu", "epsilon")
-        apart = [each for each in sides if getattr(at, each) != getattr(part.at, each)]
-        if part.strips != sets or len(apart) > 1:
-            raise Unproved("horseshoes are on other rectangles, or their boxes form no box")
-        for side in apart:
-            one, two = getattr(at, side), getattr(part.at, side)
-            if one[1] < two[0] or two[1] < one[0]:
-                raise Unproved(f"the boxes leave a hole in {side}")
-            at = replace(at, **{side: hull([one, two])})
-    margin = min(part.margin for part in parts)
-    return RectangleHorseshoe(at, sets, margin, Rates.worst([part.rates for part in parts]))
+    pairs = zip(_SIDES, one.at.sides, two.at.sides, strict=True)
+    hulls = {name: hull([x, y]) for name, x, y in pairs if x != y}
+    margin = min(one.margin, two.margin)
+    at, both = replace(one.at, **hulls), Rates.worst([one.rates, two.rates])
+    return RectangleHorseshoe(at, one.strips, margin, both)
 
 
 # -- as epsilon grows ------------------------------------------------------------------------------

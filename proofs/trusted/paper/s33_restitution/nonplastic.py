@@ -18,9 +18,10 @@ from proofs.trusted.paper.s33_restitution.horseshoes import (
     RectangleHorseshoe,
     hyperbolic,
     shoes,
+    shoes_at,
 )
 from proofs.trusted.paper.s33_restitution.rectangles import Strips
-from proofs.trusted.paper.s33_restitution.words import GoldenMean
+from proofs.trusted.paper.s33_restitution.words import GoldenMean, golden_means
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
@@ -107,7 +108,7 @@ def _full(of: Parameters, found: Found, *, edges_refute: bool = False) -> Decisi
     edges_refute: whether edges that fall short there refute the claim, too.
     """
     sets, box = stated(of)
-    nearby = shoes(found.here)
+    nearby = shoes_at(of, found)
     for each in nearby:
         if each.strips == sets and box.inside(each.at):
             return decided(Verdict.VERIFIED, each, corrected=[each])
@@ -115,7 +116,7 @@ def _full(of: Parameters, found: Found, *, edges_refute: bool = False) -> Decisi
     states = [x for x in found.elsewhere(Differential) if _inside(x, box)]
     edges = edge_images(sets, states)
     short = [each for each in edges if each.short > 0]
-    corrected = (*found.all(GoldenMean), *nearby)
+    corrected = (*golden_means(found.here), *nearby)
     known = {f"image_of_{x.edge}".replace(" ", "_"): x.image for x in edges if x.at == box}
     if words or (short and edges_refute):
         words.sort(key=lambda x: (len(set(x.word)), len(x.word), x.word))  # of the fewest symbols
@@ -143,7 +144,7 @@ def _orbits(of: Parameters, found: Found) -> Decision:
     """N3: the golden mean shift, or the full one; beside it, on which boxes a full one holds."""
     printed = with_restitution(of)
     whole: list[GoldenMean | RectangleHorseshoe]
-    whole = [*found.all(GoldenMean), *shoes(found.here)]
+    whole = [*golden_means(found.here), *shoes_at(of, found)]
     own = [each for each in whole if each.strips == printed]
     if not own:
         return undecided("no proof of which words orbits in the union of V1 and V2 follow")

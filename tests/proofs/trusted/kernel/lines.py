@@ -77,12 +77,12 @@ STEPS = {
         "rule": "itinerary",
         "witness": {"horseshoe": "shoe", "slopes": ["first"], "phase": "3/2"},
     },
-    "root": {
+    "thirds": {
         "rule": "moran-root",
         "witness": {"ratios": ["1/4", "1/4", "1/4"], "root": ["99/125", "793/1000"]},
     },
 }
-CLAIMS = ["set", "covering", "orbit", "shoe", "followed", "root"]
+CLAIMS = ["set", "covering", "orbit", "shoe", "followed", "thirds"]
 
 
 class Lines:

@@ -94,6 +94,12 @@ def test_entropy_of_full_horseshoes(name, growth):
     assert any(f"log({growth})/1" in s for s in check(text(name)).sentences)
 
 
+def test_a_form_with_both_signs_makes_a_two_sided_shift():
+    assert any(
+        "conjugate to the two-sided shift" in x for x in check(text("henon_horseshoe")).sentences
+    )
+
+
 def test_entropy_of_the_golden_mean():
     """The bounds log(L_p)/p come near log((1 + sqrt 5)/2) = 0.4812118250596 from below."""
     ((low, high),) = brackets("golden_mean", "entropy")

@@ -72,7 +72,7 @@ def test_a_horseshoe_on_a_circle_and_an_orbit_through_it():
 
 def test_a_root_for_three_ratios():
     """3 (1/4)^s = 1 for s = log 3 / log 4 = 0.79248..."""
-    assert "(0.25)^s + (0.25)^s + (0.25)^s = 1" in derived(STEPS)["root"].sentence
+    assert "(0.25)^s + (0.25)^s + (0.25)^s = 1" in derived(STEPS)["thirds"].sentence
 
 
 LIES = [
@@ -106,12 +106,13 @@ LIES = [
     ("shoe", ["witness", "region"], [[SHOE[0], "7"]], "straddles"),
     ("followed", ["witness", "horseshoe"], "set", "increases"),
     ("followed", ["witness", "slopes"], ["left"], "not known"),
-    ("root", ["witness", "root"], ["793/1000", "4/5"], "signs"),
-    ("root", ["witness", "ratios"], ["1/4", "1/4", "1"], "ratios"),
-    ("root", ["witness", "ratios"], ["1/4"], "1 entries"),
+    ("thirds", ["witness", "root"], ["793/1000", "4/5"], "signs"),
+    ("thirds", ["witness", "ratios"], ["1/4", "1/4", "1"], "ratios"),
+    ("thirds", ["witness", "ratios"], ["1/4"], "1 entries"),
 ]
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(("name", "path", "value", "reason"), LIES)
 def test_lies_are_refused(name, path, value, reason):
     steps = copy.deepcopy(STEPS)

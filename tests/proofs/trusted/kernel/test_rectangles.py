@@ -14,6 +14,7 @@ from proofs.trusted.kernel.horseshoe import Horseshoe
 from proofs.trusted.kernel.maps import read_map
 from proofs.trusted.kernel.rates import Cone, Rates, rates
 from proofs.trusted.kernel.rectangles import overlap
+from proofs.trusted.kernel.words import BarredWord
 from proofs.trusted.rules import find_rule
 
 HEIGHT = ("-1", "1")
@@ -387,3 +388,63 @@ def test_the_points_of_a_cycle_are_different_modulo_periods():
     assert len(cycle({**data, "periods": {"x": "1"}}, box, "2").boxes) == 2
     with pytest.raises(Unproved, match="may be the same"):
         cycle({**data, "periods": {"x": "1/2"}}, box, "2")
+
+
+# -- wider rectangles ------------------------------------------------------------------------------
+
+
+def around(ends=("7/4", "15/8"), word=(1, 1), turned=(), arrows=None, outer=None):
+    """A horseshoe on the first rectangle and a part of the second one, which is not repeated."""
+    proof, names = pair()
+    known, whole = proof.context.known, proof.context.known[names[1]]
+    name = proof.rectangle(ends, name="part", function="G")[0]
+    known[name] = replace(known[name], function=whole.function, turns=turned)
+    boxes = tuple(known[each].box for each in names)
+    known["barred"] = BarredWord(whole.function, boxes, word, Fraction(1, 8))
+    wider = {"rectangles": outer or names, "words": ["barred"]}
+    arrows = arrows or [["1", "2"], ["1"]]
+    witness = {"rectangles": [names[0], name], "arrows": arrows, "cone": ["0", "2"]}
+    return proof("horseshoe", **witness, wider=wider)[1]
+
+
+def test_full_orbits_that_never_repeat_a_rectangle():
+    found = around()
+    assert found.wider == tuple(
+        tuple((Fraction(a), Fraction(b)) for a, b in (x, HEIGHT)) for x in (LEFT, RIGHT)
+    )
+    assert found.arrows == ((0, 1), (0,)) and "stay in them, and do so" in found.sentence
+    assert horseshoe(*pair()).wider == ()
+
+
+def test_an_edge_goes_beyond_the_wider_rectangle():
+    """The part of the second one reaches beyond that of the first, and not beyond all of it."""
+    proof, names = pair()
+    known, map_ = proof.context.known, proof.context.functions["F"]
+    boxes = tuple(known[each].box for each in names)
+    for k, ends in enumerate((("1", "9/8"), ("7/4", "29/16"))):
+        name = proof.rectangle(ends, name=f"part-{k}", function="FG"[k])[0]
+        known[name] = replace(known[name], function=map_)
+        known[f"barred-{k}"] = BarredWord(map_, boxes, (k, 1), Fraction(1, 8))
+    wider = {"rectangles": names, "words": ["barred-0", "barred-1"]}
+    witness = {"rectangles": ["part-0", "part-1"], "arrows": [["1"], ["1"]], "cone": ["0", "2"]}
+    assert proof("horseshoe", **witness)[1].wider == ()
+    with pytest.raises(Unproved, match="beyond the wider"):
+        proof("horseshoe", **witness, wider=wider)
+
+
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        ({"word": (0, 1)}, "from 2 to 2"),
+        ({"word": (1, 1, 1)}, "from 2 to 2"),
+        ({"arrows": [["1"], ["1"]]}, "from 1 to 2"),
+        ({"ends": ("113/64", "15/8")}, "same left edge"),
+        ({"ends": ("7/4", "33/16")}, "same left edge"),
+        ({"turned": (1,)}, "same left edge"),
+        ({"ends": ("7/4", "29/16")}, "short"),  # does not reach beyond the first rectangle
+        ({"outer": ["rectangle-0"]}, "one for each"),
+    ],
+)
+def test_what_does_not_keep_orbits_in_the_parts(change, reason):
+    with pytest.raises(Unproved, match=reason):
+        around(**change)

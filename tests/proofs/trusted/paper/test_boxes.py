@@ -13,9 +13,10 @@ import pytest
 from mpmath import diff, mpf
 
 from proofs.motion.many import next_impacts
-from proofs.plane.flights import Flights
+from proofs.motion.witness import FlightBox
 from proofs.plane.horseshoe import propose
 from proofs.plane.settling import settles, stays_stable, sticks
+from proofs.plane.steps import times_for
 from proofs.trusted.certificate import FIELDS, Malformed, Reader, parameters_from_json, parse, texts
 from proofs.trusted.flights import FirstImpact, Motion, first_impact
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -366,7 +367,7 @@ def test_launches_that_land_only_at_some_oscillators():
     rejected(made, "end where the mass sticks|where the mass sticks")
     made, _, last = at(LATE)
     last["landing"] = last["separation"]
-    rejected(made, "names no earlier step that is a Lands", Malformed)
+    rejected(made, "names no step about where the last impact is", Malformed)
 
 
 def test_a_cell_that_passes_phase_0_is_no_set_in_order():
@@ -386,7 +387,7 @@ def test_flights_just_after_the_separation(low, holds):
     """phi_s is 6.0454239...: gap'' is 0 there at first, and no bound from below later on."""
     here = PAPER.place
     phases = F("6.04543"), F("6.06")
-    times = Flights(here, phases).times(26.0)
+    times = times_for(FlightBox.plastic(here, phases), 26.0)
     assert times[0] > F(1, 4)  # gap'' > 0 is seen for less
     motion = Motion(here, (F(low), phases[1]))
     assert motion.gap_of((F(0), times[0]), 2).lo <= 0 < motion.gap_of((F(0), times[0]), 3).lo

@@ -597,7 +597,7 @@ def test_rows_about_printed_phases_are_not_asked_elsewhere():
     assert printed == ["G1", "G2", "G3", "G4", "G6", "G10", "G13"]
     assert {lines[claim].verdict for claim in printed} == {Verdict.UNDECIDED}
     assert lines["M6"].verdict is Verdict.CONDITIONAL
-    assert "(eta, nu) = (1/6, -0.45)" in lines["G3"].corrected
+    assert "(eta, nu) = (1/6, -0.45)" in lines["G3"].truth
     impact, leave = (lines["G3"].quantities[f"{x}_phase"] for x in ("impact", "separation"))
     assert Fraction("5.1728") < impact[0] < Fraction("5.1729")
     assert Fraction("6.2196") < leave[0] < Fraction("6.2197")

@@ -23,16 +23,16 @@ from proofs.search.s34_absorbing import Partition
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.meter import metered
+from proofs.trusted.kernel.meter import Exhausted, metered
 from proofs.trusted.parameters import PAPER, Parameters, Place
 from proofs.trusted.rules import RULES
 from proofs.trusted.verify import derive, premises
 from tests.effort import EFFORT
 from tests.once import REPORTS, once, report
 from tests.oracles.judge import oracle
+from tests.proofs.trusted import renewing
 from tests.proofs.trusted.edits import at, edited, put, walk
 from tests.proofs.trusted.mutations import field, inside, is_number
-from tests.proofs.trusted.renewing import REFUSED
 
 TEN_PIECES = replace(PAPER, eta=Fraction("0.21"))  # of the circle: few, so that all is soon derived
 ALL_STICK, AFTER_THE_ARC = (
@@ -43,6 +43,7 @@ ALL_STICK, AFTER_THE_ARC = (
     )
 )
 WORK = 3_000_000
+REFUSED = (*renewing.REFUSED, Exhausted)
 
 
 @once
@@ -92,7 +93,9 @@ def derived(parameters, make):
 def shortest():
     """For each rule the shortest step of the committed files: its length, file, and name."""
     steps = {}
-    for path in [*REPORTS.glob("*.json"), *REPORTS.glob("atlas/*/cell-*.json")]:
+    lemmas = REPORTS.parent / "tests/certificates/lemmas/accepted"
+    cells = REPORTS.glob("atlas/*/cell-*.json")
+    for path in [*REPORTS.glob("*.json"), *cells, *lemmas.glob("*.json")]:
         for name, step in json.loads(path.read_text()).get("steps", {}).items():
             steps.setdefault(step["rule"], []).append((len(json.dumps(step)), path, name))
     return {rule: min(each) for rule, each in steps.items()}

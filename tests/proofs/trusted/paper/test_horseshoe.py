@@ -102,7 +102,7 @@ def test_the_corrected_theorem_is_about_the_nearest_printed_sets(outcome):
     assert found.cells == ((Fraction("1.1"), Fraction("1.15")), PAPER.right)
     assert found.is_horseshoe and found.interval == (Fraction("1.1"), Fraction("1.32"))
     assert Fraction("4.30") < found.steepness[0] < found.steepness[1] < Fraction("6.19")
-    told = {line.id: line.corrected for line in outcome.lines}
+    told = {line.id: line.truth for line in outcome.lines}
     assert told["H1"] is None and told["H2"] == told["H5"]
     assert told["H2"] == f"At {PAPER.place}: {found.sentence}"
 

@@ -180,6 +180,9 @@ LIES = [  # that edits of all fields do not tell, in test_edits
     ),
     ("grazing", lambda w: w["times"].__setitem__(2, add(F(1, 10**9))(w["times"][1])), "to rise"),
     ("grazing", lambda w: w["times"].__setitem__(3, add(8)(w["times"][3])), "to rise"),
+    ("grazing", lambda w: w.update(beyond=w["turn"]), "not in order"),
+    ("expansion", lambda w: w["scales"].__setitem__(0, "0"), "scale > 0"),
+    ("cycles", lambda w: w.update(radius="0"), "no radius"),
     ("itinerary-graph", lambda w: w.update(growth="1/2"), "growth >= 1"),
     ("itinerary-graph", lambda w: w["weights"].__setitem__(0, "0"), "weights > 0"),
     (

@@ -137,7 +137,8 @@ def verdict(claim, found, of=PAPER):
         ([shoe()], VERIFIED),
         ([shoe(with_nu("-0.21", "-0.19"))], VERIFIED),
         ([shoe(with_nu("-0.21", "-0.2"))], UNDECIDED),
-        ([shoe(with_nu("-0.21", "-0.2")), shoe(with_nu("-0.2", "-0.19"))], UNDECIDED),  # no union
+        ([shoe(with_nu("-0.21", "-0.2")), shoe(with_nu("-0.2", "-0.19"))], VERIFIED),
+        ([shoe(with_nu("-0.21", "-0.201")), shoe(with_nu("-0.2", "-0.19"))], UNDECIDED),
         ([shoe(EXACT)], UNDECIDED),
         ([shoe(sets=OTHER_SETS)], UNDECIDED),
         ([shoe(sets=OTHER_VELOCITIES)], UNDECIDED),

@@ -194,6 +194,7 @@ def widen(ends, by):
 
 
 EDITS = [
+    ((*FLIGHT, "times"), lambda times: [times[0], *times[-2:]]),
     ((*FLIGHT, "times"), lambda times: times[-2:]),
     ((*CHATTER, "box"), lambda box: [widen(ends, "1/2") for ends in box]),
     ((*CHATTER, "cells"), lambda cells: [cells[0], *cells[-1:]]),
