@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+import tomllib
 from graphlib import TopologicalSorter
 from pathlib import Path
 
@@ -38,6 +39,22 @@ def test_packages_are_typed_and_complete():
     }
     assert all((folder / "__init__.py").exists() for folder in folders)
     assert all((ROOT / package / "py.typed").exists() for package in ("intervals", "proofs"))
+
+
+def test_what_the_packages_read_is_installed_with_them():
+    data = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"][
+        "package-data"
+    ]
+    installed = {
+        path
+        for name, globs in data.items()
+        for each in globs
+        for path in (ROOT / name.replace(".", "/")).glob(each)
+    }
+    command = ["git", "ls-files", "intervals", "proofs"]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
+    files = {ROOT / path for path in done.stdout.split() if not path.endswith(".py")}
+    assert files <= installed
 
 
 def test_the_readme_s_table_names_things_that_exist():

@@ -66,15 +66,14 @@ def stable_cycle(system: System, start: float, farthest: float) -> list[Seen]:
         if seen.goes_on and abs(math.remainder(seen.image - start, math.tau)) < _CLOSE:
             cycle = _nearest_cycle(system, start, farthest, period)
             if cycle and abs(multiplier(cycle)) < 1:
-                return _once_around(cycle)
+                return _nearest_cycle(system, cycle[0].phase, farthest, _least_period(cycle))
     return []
 
 
-def _once_around(cycle: list[Seen]) -> list[Seen]:
-    """Return a cycle up to where it first comes back: its least period."""
-    start = cycle[0].phase
-    misses = (abs(math.remainder(seen.image - start, math.tau)) for seen in cycle)
-    return cycle[: next(k for k, miss in enumerate(misses, 1) if miss < NEAR)]
+def _least_period(cycle: Sequence[Seen]) -> int:
+    """Return after how many impacts a cycle first comes back."""
+    misses = (abs(math.remainder(seen.image - cycle[0].phase, math.tau)) for seen in cycle)
+    return next(k for k, miss in enumerate(misses, 1) if miss < NEAR)
 
 
 def multiplier(cycle: Sequence[Seen]) -> float:

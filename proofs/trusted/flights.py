@@ -42,6 +42,7 @@ class PlasticMap(Subject):
     at: Place
     name: ClassVar = "f"
     definition: ClassVar = "f"
+    smooth: ClassVar = ", all first impacts from there being transversal"
     of_orbits: ClassVar = (
         "; all its impacts are transversal, and after each the mass leaves the table at once"
     )

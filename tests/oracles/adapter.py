@@ -15,6 +15,7 @@ _BLIND = {
     "parts",
     "work",
     "_known",
+    "_last",
     "_taken",
     "_proved",
 }  # the checker's machinery inside of conclusions

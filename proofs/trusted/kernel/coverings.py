@@ -63,13 +63,14 @@ class EntropyBound(AboutMap):
     def _shift(self) -> str:
         f, count = named(self.function), len(self.cells)
         cells = ", ".join(f"C{i} = {show_range(cell)}" for i, cell in enumerate(self.cells))
+        point, smooth = "phase" if self.place else "point", getattr(self.function, "smooth", "")
         return (
-            f"{given(self.function)}{f} is C^1 on each of {cells}, and maps each over the interval "
-            "from the first to the last of them. So each sequence of the symbols 0 to "
-            f"{count - 1} is the itinerary of a point whose orbit stays in these sets, each "
-            "periodic one that of a periodic orbit; on the compact set of all points whose orbits "
-            f"stay there, {f} has the full shift on {count} symbols as a factor, and entropy at "
-            f"least {floor_text(self.entropy[0])}."
+            f"{given(self.function)}{f} is continuous on each of {cells}{smooth}, and maps each "
+            "over the interval from the first to the last of them. So each sequence of the symbols "
+            f"0 to {count - 1} is the itinerary of a {point} whose orbit stays in these sets, each "
+            f"periodic one that of a periodic orbit; on the compact set of all {point}s whose "
+            f"orbits stay there, {f} has the full shift on {count} symbols as a factor, and "
+            f"entropy at least {floor_text(self.entropy[0])}."
         )
 
     @property

@@ -87,7 +87,10 @@ class Flight:
     gaps: tuple[Gap, ...]
     motions: tuple[Motion, ...]
     latest: Fraction = LATEST
-    _known: dict[tuple[int, ...], Impact] = field(default_factory=dict)
+    _known: dict[tuple[int, ...], tuple[Sequence[Enclosure], Enclosure]] = field(
+        default_factory=dict
+    )  # boxes, with the times of the impacts
+    _last: dict[tuple[int, ...], Impact] = field(default_factory=dict)
     _taken: dict[int, list[int]] = field(default_factory=dict)  # steps of the last search, by bits
 
     @property
@@ -200,19 +203,22 @@ class Flight:
 
     def _impact(self, x: Sequence[Enclosure]) -> Impact:
         key = (x[0].bits, *(end for side in x for end in (side.lo, side.hi)))
-        if key not in self._known:
+        if key not in self._last:
             launches = Launches(self, list(x), enclosed(self.formulas.ranges, x[0].bits))
-            impact = Impact.sharp(launches, self._window(launches))
-            if len(self._known) == _REMEMBERED:
-                del self._known[next(iter(self._known))]
-            self._known[key] = impact
-        return self._known[key]
+            if key not in self._known:
+                time = Impact.sharp(launches, self._window(launches)).time
+                if len(self._known) == _REMEMBERED:
+                    del self._known[next(iter(self._known))]
+                self._known[key] = launches.states, time
+            self._last.clear()
+            self._last[key] = Impact(launches, self._known[key][1])
+        return self._last[key]
 
     def _window(self, launches: Launches) -> Range:
         """Return times between which the first zeros are; of a box inside another one its times."""
-        for impact in islice(reversed(self._known.values()), _AROUND):
-            if _within(launches.states, impact.launches.states):
-                return impact.time.range
+        for states, time in islice(reversed(self._known.values()), _AROUND):
+            if _within(launches.states, states):
+                return time.range
         try:
             return self._searched(launches.coarse)
         except Unproved:

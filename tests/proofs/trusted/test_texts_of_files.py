@@ -24,7 +24,7 @@ from proofs.trusted.verify import premises
 from tests.once import report
 from tests.oracles.sources import classes
 from tests.proofs.trusted.edits import at, walk
-from tests.proofs.trusted.paper.test_edits import REFUSED, again, source
+from tests.proofs.trusted.paper.test_edits import REFUSED, SMALLER, again, shortest, source
 
 ROOT = Path(__file__).parents[3]
 NAME = r"[A-Za-z][A-Za-z0-9_]{0,11}|_[0-9]+"
@@ -129,6 +129,8 @@ def told(found):
 @pytest.mark.slow
 @pytest.mark.parametrize("rule", RULES)
 def test_a_phrase_in_a_step_is_in_no_sentence(rule):
+    if rule not in shortest() | SMALLER:
+        pytest.skip("no committed file has such a step")
     steps, context, name = source(rule)
     witness = steps[name]["witness"]
     for where, text in words(context.known[name]):

@@ -372,7 +372,7 @@ def test_a_horseshoe_of_the_ball_needs_nothing_of_the_paper():
     entropy = horseshoe(file)
     document = file.document("cone-1", entropy, orbit)
     rules = {step["rule"] for step in document["steps"].values()}
-    assert rules == {"h-set", "covers", "graph", "entropy", "cone", "periodic-orbit", "image"}
+    assert rules == {"h-set", "covers", "graph", "entropy", "cone", "periodic-orbit"}
     made = barred(BARRED, render(document))
     assert not made.stderr
     cone, entropy, orbit = made.stdout.splitlines()

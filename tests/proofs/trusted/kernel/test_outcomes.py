@@ -74,6 +74,14 @@ def test_formulas_are_enclosed_for_ever(text, x, times):
             assert ray.hi[0] > 0 or value <= ray.hi[1] + slip
 
 
+def test_products_are_rounded_outward():
+    """Of what is -2^-64 at the most and of 2^-64 each is -2^-128 at the most, and at least."""
+    (low, high), unit = ((-1, 0), (0, -1)), Ray((0, 1), (0, 1))
+    assert Rays(BITS).apply("*", [Ray(low, high), unit], Fraction(0)) == Ray(low, (0, 0))
+    upward = Rays(BITS).apply("*", [Ray((0, -1), (1, 0)), unit], Fraction(0))
+    assert upward == Ray((0, -1), (1, 0))
+
+
 # -- what is false is refused ----------------------------------------------------------------------
 
 
@@ -146,6 +154,9 @@ LIES = [
     ("an impact before", touch("((t - 1)**2 + x)*(t - 1/2)*(t - 1/4)*8"), NONE),
     ("a touch outside", touch("(t - 2)**2 + x", time=("3/4", "5/4")), "one minimum"),
     ("a touch of none in the side", touch("(t - 1)**2 + x", side=("1/200", "1/100")), "touches 0"),
+    ("impacts alone", touch("(t - 1)**2 + x", side=("-1/50", "-1/1000"), time=("1/2", "17/10")),
+     "touches 0"),
+    ("nearly a touch", touch("(t - 1)**2 + x - 1/3 + 1/10**25", side=("1/3", "1/2")), "touches 0"),
     ("another wall before", touch("(t - 1)**2 + x", "1/2 - t"), NONE),
     ("another wall at once", touch("(t - 1)**2 + x", "(t - 1)**2 + x"), NONE),
     ("no axis", ("graze", CLOCK, {"box": FREE[:1], "axis": "2", "time": ["1", "2"]}), "from 1 to"),
@@ -178,7 +189,7 @@ def test_lies(case, reason):
 def test_where_no_impact_is_proved_none_is_simulated(seed):
     """Walls and launches at random: some impacts are proved to be none, others are seen."""
     rng, proved = random.Random(seed), 0
-    for _ in range(examples(6, 12)):
+    for _ in range(examples(60, 12)):
         sides = (1.2, 2.5), (0, 6), (-1.5, -0.05)
         wall, phi, v = (Fraction(rng.uniform(*x)).limit_denominator(99) for x in sides)
         values = {"s": [str(wall)] * 2, "d": ["1/5", "1/5"]}

@@ -424,7 +424,17 @@ def test_a_few_branches_beat_log_3(small, graphs):
     assert find("G9").decide(PAPER, [again]).verdict is Verdict.VERIFIED
 
 
+def later_zero(w):
+    """The last phase before f jumps: the gap falls through 0 again at a time near 56.17."""
+    entry = next(x for x in w["images"] if 1.19 < F(x["phase"]) < 1.2)
+    time = 55.0
+    while distance(float(F(entry["phase"])), time) > 0:
+        time += 0.001
+    entry["time"] = [str(F(round(time * 1000) + shift, 1000)) for shift in (-2, 2)]
+
+
 GRAPH_LIES = {
+    "a later zero": later_zero,
     "no growth": lambda w: w.update(growth="1/2"),
     "a negative value": lambda w: w["weights"].__setitem__(0, "-1"),
     "all values 0": lambda w: w.update(weights=["0"] * len(w["weights"])),
