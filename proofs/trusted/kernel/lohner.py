@@ -222,7 +222,7 @@ def orthogonal(matrix: Matrix, widths: Sequence[Enclosure]) -> tuple[Matrix, Mat
     (I + E)^-1 - I = -E (I + E)^-1 has sums by rows of at most e / (1 - e) <= 2 e.
     """
     n, bits = len(matrix), widths[0].bits
-    METER.get().spend(4 * n**3)
+    METER.get().spend(10 * n**3)
     columns = [[(x.lo + x.hi) >> 1 for x in column] for column in zip(*matrix, strict=True)]
     carried = [
         sum(x * x for x in column) * (width.hi - width.lo) ** 2

@@ -25,6 +25,7 @@ Form = dict[int, Fraction]  # a linear combination of nodes, by their places
 _LARGEST = 256  # a coefficient beyond 2^256 is not followed
 _LONGEST = 12  # terms of a combination that is not yet a node
 _GIVEN = ("number", "variable")
+_COSTS = {"combination": 1, "rate": 1, "*": 2, "square": 2}  # of a coefficient; 3 for the others
 _ONE, _ZERO = 0, Fraction(0)  # the node of the number 1
 
 
@@ -58,7 +59,8 @@ class Program:
             self._forms[place] = {self._node(form): Fraction(1)} if len(form) > _LONGEST else form
         self.rates = {1 + x: _combination(self._forms[root]) for x, root in rates.items()}
         long = [n for node in (*self.nodes, *self.rates.values()) for n in node.factors]
-        self.weight = len(self.nodes) + len(self.rates) + sum(n.bit_length() >> 6 for n in long)
+        costs = (_COSTS.get(node.op, 3) for node in self.nodes if node.op not in _GIVEN)
+        self.weight = sum(costs) + len(self.rates) + sum(n.bit_length() >> 6 for n in long)
 
     def _form(self, op: str, forms: list[Form], datum: Fraction) -> Form:
         match op:
@@ -173,7 +175,7 @@ class Series:
 
     def _advance(self, k: int) -> None:
         """Compute the k-th coefficients of what the rates need, then the next ones of variables."""
-        METER.get().spend(self.program.weight * (1 + (k * (4 + (self.bits >> 6)) >> 6)))
+        METER.get().spend(4 + self.program.weight * (1 + (k * (4 + (self.bits >> 6)) >> 6)))
         for place, node in enumerate(self.program.nodes):
             if node.op not in _GIVEN:
                 self._store(place, *self._coefficient(place, node, k))
