@@ -53,7 +53,7 @@ _STATEMENTS = {
     "orbits": "periodic orbits of this least period exist",
     "impact": "it is known what comes after these states: an impact, none ever, or no flight",
     "graze": "a value of the variable with a range is followed by a graze",
-    "rest": "in contact with the wall the motion rests or sticks, at these states",
+    "rest": "in contact with the wall no flight begins, at these states",
     "branches": "branches of fixed points over this range of a parameter",
     "folds": "curves of fixed points with the multiplier 1, over the second range",
     "flips": "curves of fixed points with the multiplier -1, over the second range",

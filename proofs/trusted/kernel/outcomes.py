@@ -100,7 +100,7 @@ class Pressed(Conclusion):
         lower, why = "", "it moves into the wall, as before an impact"
         if self.order > 1:
             lower = f", as are its derivatives of orders below {self.order},"
-            why = "the motion is pressed against the wall, where it rests or sticks"
+            why = "the motion is pressed against the wall"
         return (
             f"for {flight.definition}: for {box_text(self.box, flight.variables)}, `{gap}` is 0 at "
             f"`{t}` = 0{lower} and {rate} is < 0 there: no flight begins, {why}."
