@@ -6,6 +6,7 @@ import sys
 from tempfile import TemporaryDirectory
 
 import pytest
+from hypothesis import settings
 
 from tests import once
 from tests.effort import EFFORT
@@ -19,6 +20,8 @@ def pytest_configure(config):
     start, do not compile the same files again and again.
     """
     EFFORT.quick = config.option.markexpr == "not slow"
+    settings.register_profile("suite", deadline=None)  # machines are noisy
+    settings.load_profile("suite")
     if sys.dont_write_bytecode and config.pluginmanager.hasplugin("cacheprovider"):
         folder = str(config.cache.mkdir("bytecode"))
         sys.dont_write_bytecode, sys.pycache_prefix = False, folder

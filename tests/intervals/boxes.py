@@ -11,10 +11,10 @@ from tests.intervals.oracle import exponent, pi_bounds, round_down, round_up, ul
 
 
 def for_all(*strategies, tries=50, at_length=None):
-    """Do as `given`, with so many examples, `at_length` in the whole suite, and no deadline."""
+    """Do as `given`, with so many examples, `at_length` in the whole suite."""
 
     def decorated(test):
-        effort = settings(deadline=None, max_examples=examples(tries, at_length))
+        effort = settings(max_examples=examples(tries, at_length))
         return effort(given(*strategies)(test))
 
     return decorated

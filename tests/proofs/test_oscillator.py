@@ -32,7 +32,7 @@ def test_the_docstring_runs():
 
 
 @given(st.integers(111, 114))
-@settings(max_examples=4, deadline=None)
+@settings(max_examples=4)
 def test_the_image_of_an_interval_holds_that_of_a_phase(hundredths):
     whole = PLASTIC.image(LEFT, digits=8)
     phase = Fraction(hundredths, 100)

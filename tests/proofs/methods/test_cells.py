@@ -106,7 +106,7 @@ def brute_force(matrix, shift, depth):
 
 
 @pytest.mark.slow
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=10)
 @given(st.lists(st.integers(-24, 24), min_size=6, max_size=6))
 def test_affine_maps_against_brute_force(numbers):
     a, b, c, d, e, f = (Fraction(n, 8) for n in numbers)

@@ -47,7 +47,7 @@ def test_an_interior_extremum_is_found_to_the_tolerance():
 
 
 @pytest.mark.slow
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(st.lists(st.integers(-9, 9), min_size=2, max_size=5), st.integers(0, 40))
 def test_every_value_lies_between_the_outer_bounds(coefficients, k):
     g, dg = polynomial(coefficients)

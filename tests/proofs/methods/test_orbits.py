@@ -98,7 +98,7 @@ def covering_maps(draw):
 
 
 @pytest.mark.slow
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(covering_maps(), st.integers(1, 4), st.sampled_from([5, 40]))
 def test_any_affine_pieces_that_cover(drawn, length, digits):
     pieces, domains = drawn

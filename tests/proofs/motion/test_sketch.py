@@ -4,7 +4,7 @@ import math
 from fractions import Fraction
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from intervals import DomainError
@@ -26,7 +26,6 @@ def alike(seen, proved):
 
 
 @pytest.mark.slow
-@settings(deadline=None)
 @given(ends, ends)
 def test_operations_are_about_those_of_enclosures(first, second):
     (x, y), (u, v) = (
@@ -42,7 +41,6 @@ def test_operations_are_about_those_of_enclosures(first, second):
     assert all(alike(*pair) for pair in pairs)
 
 
-@settings(deadline=None)
 @given(st.floats(0.1, 3), st.floats(0.01, 0.5), st.floats(0.5, 3))
 def test_the_lemmas_on_flights_take_them(height, width, bend):
     """gap = height - time^2 bend / 2, by hand."""

@@ -236,7 +236,6 @@ def test_phase_after_is_the_phase_mod_a_turn(phase, time):
 
 
 @pytest.mark.slow
-@settings(deadline=None)
 @given(numbers, numbers, st.fractions(0, 3, max_denominator=1000))
 def test_phase_after_encloses_the_phase(phase, time, width):
     low, high = phase_after(phase, (time, time + width), 100)
@@ -380,7 +379,7 @@ def test_meets_mod_two_pi(phases, time, target, expected):
 
 
 @pytest.mark.slow
-@settings(deadline=None, max_examples=300)
+@settings(max_examples=300)
 @given(
     numbers,
     st.fractions(0, 7, max_denominator=50),

@@ -19,7 +19,7 @@ from tests.effort import examples
 TRUTH_BITS = 4096
 PRECISIONS = (8, 24, 53, 64, 113, 400, 2000)
 
-quick = settings(max_examples=examples(40), deadline=None)
+quick = settings(max_examples=examples(40))
 bits_of = st.sampled_from(PRECISIONS)
 tame = st.fractions(-1000, 1000, max_denominator=10**12)
 tiny = st.builds(lambda m, k: Fraction(m, 2**k), st.integers(-9, 9), st.integers(40, 300))

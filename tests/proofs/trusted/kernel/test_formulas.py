@@ -57,7 +57,7 @@ def check_contains(enclosure, ball):
 
 
 @pytest.mark.slow
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(expressions, points, points, widths, st.sampled_from([0, Fraction(1, 3), 1]))
 def test_enclosures_contain_the_values(expression, x, y, width, share):
     read = formula(expression)
@@ -71,7 +71,7 @@ def test_enclosures_contain_the_values(expression, x, y, width, share):
 
 
 @pytest.mark.slow
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(expressions, points, points, st.sampled_from([0, 1]))
 def test_derivatives_contain_the_slopes(expression, x, y, variable):
     """Arb's power series in x, or in y, give the derivative without any symbolic rule."""
@@ -252,7 +252,7 @@ trees = st.recursive(
 
 
 @pytest.mark.slow
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(trees, points, points)
 def test_leaves_cover_the_box(tree, x, y):
     """Every point of the box is in a leaf, their areas sum to 1."""

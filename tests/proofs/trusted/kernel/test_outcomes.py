@@ -57,7 +57,7 @@ def value_of(text, x, time):
     return eval(exact, {**NUMBERS, "exp": exp, "mpf": mpmath.mpf}, place)
 
 
-@settings(max_examples=examples(200, 1500), deadline=None)
+@settings(max_examples=examples(200, 1500))
 @given(FORMULAS, st.fractions(-4, 4, max_denominator=50), st.lists(st.integers(SINCE, 300)))
 def test_formulas_are_enclosed_for_ever(text, x, times):
     functions = on_tape(tree := formula(text), variables=("x", "t"))

@@ -139,7 +139,7 @@ def test_periodic_points_of_some_polynomials_are_the_roots(coefficients, period)
     compare(coefficients, period)
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(st.lists(st.integers(-12, 12), min_size=2, max_size=4), st.sampled_from([1, 2, 3]))
 def test_periodic_points_of_polynomials_are_the_roots(coefficients, period):
     polynomial = closing(coefficients, period)

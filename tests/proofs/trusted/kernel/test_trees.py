@@ -109,7 +109,7 @@ def value_of(tree, env):
 
 
 @pytest.mark.slow
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(trees, st.dictionaries(st.sampled_from(NAMES), trees, max_size=3))
 def test_substitution_is_evaluation_elsewhere(tree, places):
     """By Arb, with differences for derivatives: F with G in the place of x, at what G is."""

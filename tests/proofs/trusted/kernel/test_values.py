@@ -162,7 +162,7 @@ def generator(forms, place, n, x):
 
 
 @pytest.mark.slow
-@settings(max_examples=examples(100), deadline=None)
+@settings(max_examples=examples(100))
 @given(expressions, points, points)
 def test_normal_forms_have_the_values_of_the_formulas(text, x, y):
     """Also after inverses, and negative powers of roots, are cleared."""

@@ -172,8 +172,8 @@ OWN += ["moran-root", "itinerary", "staying-set", "covering-graph", "stable-orbi
 
 
 ACCEPTED = {  # what may be done to which field, in some places; all else is refused
-    "first-impact": "phases tighter narrowed looser aside collapsed nudged put_beside put_to_1; "
-    "times dropped nudged moved put_beside put_to_1",
+    "first-impact": "phases tighter narrowed looser aside collapsed nudged moved put_beside "
+    "put_to_1; times dropped nudged moved put_beside put_to_1",
     "point": "time tighter looser widened nudged put_beside",
     "slope-range": "phase nudged; time looser nudged moved",
     "avoids": "flights dropped; target tighter narrowed nudged put_beside",
@@ -185,10 +185,8 @@ ACCEPTED = {  # what may be done to which field, in some places; all else is ref
     "turned nudged moved put_beside; nodes moved put_alike; exponent nudged; growth nudged "
     "put_to_1; test dropped swapped doubled_in_place added nudged moved put_beside put_to_0 "
     "put_to_1; bits moved",
-    "horseshoe-union": "parts dropped swapped doubled_in_place added turned",
-    "golden-mean": "words swapped added turned",
-    "separation": "phase looser nudged; times dropped nudged moved put_beside put_to_1; time "
-    "looser nudged moved",
+    "separation": "phase tighter narrowed looser nudged; times dropped nudged moved put_beside "
+    "put_to_1; time looser nudged moved",
     "lands": "cuts dropped nudged moved put_beside put_to_0",
     "never-impacts": "phases tighter narrowed nudged put_beside",
     "absorption": "never other_type dropped emptied; lands swapped turned; cells dropped swapped "
@@ -202,8 +200,8 @@ ACCEPTED = {  # what may be done to which field, in some places; all else is ref
     "tighter looser widened nudged moved",
     "pieces": "branches swapped turned; after nudged moved; grazings swapped turned",
     "itinerary-graph": "images swapped added turned; time tighter looser widened nudged moved "
-    "put_beside; states swapped doubled_in_place aside collapsed; weights swapped doubled_in_place "
-    "nudged moved put_beside; growth nudged moved",
+    "put_beside; states swapped doubled_in_place aside collapsed; weights put_to_1 swapped "
+    "doubled_in_place nudged moved put_beside; growth nudged moved",
     "expansion": "cuts nudged; times nudged; scales doubled_in_place nudged moved put_beside "
     "put_to_1; rate nudged",
     "cycles": "orbits dropped swapped turned; time tighter looser widened nudged moved put_beside; "
