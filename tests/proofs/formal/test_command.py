@@ -7,8 +7,8 @@ import pytest
 from proofs.formal import __main__ as formal
 from proofs.formal import coqc
 from proofs.formal.written import Case, Theorem
-from proofs.shell.entry import guarded
 from tests.proofs.formal.coq import PAPER, ROOT, needs_coqc, printed_by_coq
+from tests.proofs.shell.processes import guarded_here
 
 CERTIFICATES = ROOT / "tests" / "certificates"
 LOGISTIC = CERTIFICATES / "lemmas" / "accepted" / "logistic.json"
@@ -149,7 +149,7 @@ def pretended(tmp_path, monkeypatch):
 @pytest.mark.parametrize("name", ENDINGS)
 def test_how_coqc_may_end_is_a_line_with_its_status(capsys, pretended, name):
     does, status, line = ENDINGS[name]
-    ended = guarded("formal", lambda: formal.main([str(LOGISTIC), *pretended(does)]))
+    ended = guarded_here(lambda: formal.main([str(LOGISTIC), *pretended(does)]))
     said = capsys.readouterr()
     assert ended == status and line in said.err and said.err.count("\n") == 1 and not said.out
 

@@ -14,6 +14,7 @@ from pathlib import Path
 from time import monotonic, sleep
 
 from proofs.__main__ import commands
+from proofs.shell.entry import guarded
 
 ROOT = Path(__file__).parents[3]
 COMMANDS = [*commands(), "__main__"]
@@ -68,6 +69,21 @@ def started(name, arguments, **streams):
         start_new_session=True,
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # noqa: PLW1509
     )
+
+
+def guarded_here(work):
+    """The status of some work as a command's, in this process; its signals are left as they were.
+
+    Else they would be ignored from then on, also by the processes that later tests start.
+    """
+    before = {x: signal.getsignal(x) for x in (signal.SIGINT, signal.SIGTERM, signal.SIGALRM)}
+    report = sys.unraisablehook
+    try:
+        return guarded("python -m proofs", work)
+    finally:
+        sys.unraisablehook = report
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 def arguments_of(name, folder, table=QUICK):

@@ -17,8 +17,8 @@ from proofs.commands import (
 )
 from proofs.commands.groups import GROUPS
 from proofs.search import periodic
-from proofs.shell.entry import guarded
 from proofs.shell.runner import run
+from tests.proofs.shell.processes import guarded_here
 
 
 class Row:
@@ -357,7 +357,7 @@ def test_others_refuse_in_a_line_before_the_work(
     monkeypatch.chdir(tmp_path)
     (tmp_path / "file").touch()
     began = perf_counter()
-    assert guarded("python -m proofs", lambda: main([command, *shlex.split(arguments)])) == 2
+    assert guarded_here(lambda: main([command, *shlex.split(arguments)])) == 2
     said = capsys.readouterr()
     assert said.out == "" and said.err.count("\n") == 1 and why in said.err
     assert perf_counter() - began < 5

@@ -88,6 +88,7 @@ def work():
     child = os.fork()
     if child == 0:
         time.sleep(20)
+        os._exit(1)
     time.sleep(0.2)
     os.kill(child, signal.SIGINT)
     return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) - 100
