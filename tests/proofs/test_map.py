@@ -357,8 +357,8 @@ def test_the_machine_form(capsys):
 
 
 def test_the_time_is_over(capsys):
-    """A question that is begun is stopped: the ball's horseshoe takes seconds."""
-    arguments = ["--example", "bouncing-ball", "--ask", "horseshoe", "--seconds", "0.7"]
+    """A question that is begun is stopped: Roessler's horseshoe takes many seconds."""
+    arguments = ["--example", "roessler", "--ask", "horseshoe", "--seconds", "0.7"]
     began = time.monotonic()
     assert main(arguments) == 1
     assert time.monotonic() - began < 1.7
