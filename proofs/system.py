@@ -150,7 +150,7 @@ class System(Map):
         raise reason
 
     def rest(self, *, wall: str = "", **state: Ends) -> Theorem:
-        """Prove that the motion rests, or sticks, at a wall, from states of contact.
+        """Prove that no flight begins at a wall, from states of contact.
 
         They are those of the key `rest` of the wall, for these values of the other variables.
         """

@@ -294,13 +294,12 @@ def find_horseshoe(file: Derivation, function: str, candidates: Candidates) -> l
     sampled = Sampled(file.map(function)).iterate(power)
     with metered(_WORK * candidates.share):
         for sets in candidates.frames(sampled):
-            kept = {*file.steps}
             try:
-                return prove_shift(file, function, power, sets, 2)
+                with file.undone():
+                    return prove_shift(file, function, power, sets, 2)
             except (Undecided, Unproved, Exhausted) as error:
                 is_late = isinstance(error, Exhausted)
                 reason = "candidates take too long to prove" if is_late else str(error)
-                file.forget({*file.steps} - kept)
                 if is_late:
                     break
     raise Undecided(f"no horseshoe is found: {reason}")
