@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import TypeVar
 
 from intervals.errors import DomainError, Undecided
+from proofs.trusted.flights import lifted, whole_turns
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import Range, agree
 
@@ -51,3 +52,15 @@ def to_digits(
             return found
     reason = reason or "the result is too close to 0 or to grazing"
     raise Undecided(f"{digits} digits are not reached: {reason}")
+
+
+def phase_after(phase: Fraction, time: Range, bits: int) -> Range:
+    """Enclose phase + time, less the multiple of 2 pi that puts its lower end in [0, 2 pi).
+
+    The upper end may lie beyond 2 pi.
+    """
+    total = phase + time[0]
+    count = total // whole_turns(1, bits)[0]
+    if total < whole_turns(count, bits)[1]:  # the multiple is not decided: take the smaller one
+        count -= 1
+    return lifted((total, phase + time[1]), -count, bits)

@@ -1,8 +1,8 @@
 """Proof steps of the plastic map: each proves something and records its witness.
 
-The steps are those of `proofs.trusted.flights`, by the same names. A witness is what its lemmas say
-of floats; the checker's rule concludes from it, and where it does not, from what they say of the
-checker's numbers. So neither mpmath nor numpy is needed.
+What f is on intervals is asked of the checker's own map. A witness of a flight is what its lemmas
+say of floats; the checker's rule concludes from it, and where it does not, from what they say of
+the checker's numbers. So neither mpmath nor numpy is needed.
 """
 
 from __future__ import annotations
@@ -11,27 +11,29 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import partial
+from functools import cached_property, partial
 from typing import Any, TypeVar
 
 from proofs.methods.extremes import extremes
 from proofs.methods.moran import moran_root
-from proofs.motion.branch import Branch
 from proofs.motion.covering import cover_by
 from proofs.motion.system import System
-from proofs.motion.witness import FlightBox, Seen, locate
+from proofs.motion.witness import FlightBox, Seen
 from proofs.search.evidence import FAILED, Proved, concluded, floats_first
 from proofs.trusted.certificate import texts
 from proofs.trusted.flights import FirstImpact
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.differential import BITS, Differential
+from proofs.trusted.kernel.enclose import enclosed
 from proofs.trusted.kernel.laps import SlopeRange
 from proofs.trusted.kernel.moran import MoranRoot
 from proofs.trusted.kernel.staying import StayingSet
-from proofs.trusted.numbers import Range, show_range
+from proofs.trusted.numbers import TURN, Range, show_range
+from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.parameters import Parameters, Place
-from proofs.trusted.slopes import Avoids, Impact, comes_to
+from proofs.trusted.slopes import Avoids, comes_to
 
 _Made = TypeVar("_Made")
 
@@ -53,8 +55,18 @@ class Prover:
 
     @property
     def bits(self) -> int:
-        """Binary places of a bracket: enough for the digits after a loss of some 2^10."""
-        return self.digits * 10 // 3 + 16
+        """Binary places: enough for the digits after a loss of some 2^30."""
+        return max(BITS, self.digits * 10 // 3 + 36)
+
+    @cached_property
+    def map(self) -> PlasticMap:
+        """The checker's map f, with impacts up to the horizon."""
+        return PlasticMap(self.at, self.horizon)
+
+    @property
+    def function(self) -> dict[str, list[str]]:
+        """It, as witnesses name it."""
+        return {"eta": texts(self.at.eta), "nu": texts(self.at.nu)}
 
     @property
     def context(self) -> Context:
@@ -73,17 +85,17 @@ class Prover:
                 each.update(then)  # type: ignore[arg-type]
             raise
 
-    def add(self, rule: str, witness: dict[str, Any]) -> str:
-        """Record a step and return its name."""
+    def add(self, rule: str, witness: dict[str, Any], stem: str = "") -> str:
+        """Record a step and return its name, a number after the stem, or after the rule's name."""
         number = 1 + sum(step["rule"] == rule for step in self.steps.values())
-        name = f"{rule}-{number}"
+        name = f"{stem or rule}-{number}"
         self.steps[name] = {"rule": rule, "witness": witness}
         return name
 
-    def derive(self, rule: str, witness: dict[str, Any]) -> tuple[str, Any]:
+    def derive(self, rule: str, witness: dict[str, Any], stem: str = "") -> tuple[str, Any]:
         """Record a step, with what the checker's rule concludes from it, or raises."""
         conclusion = concluded(rule, witness, self.context)
-        name = self.add(rule, witness)
+        name = self.add(rule, witness, stem)
         self.known[name] = conclusion
         return name, conclusion
 
@@ -117,23 +129,18 @@ class Prover:
         parts = cover_by(self.flights(phases), horizon=self.horizon, floats=floats)
         return [self.add_impact(part) for part in parts]
 
-    def impact(self, phases: Range) -> tuple[str, FirstImpact]:
-        """Prove the transversal first impact of (nearly) one launch."""
-        return self.seen_or_proved(partial(self._impact, phases))
-
-    def _impact(self, phases: Range, floats: bool) -> tuple[str, FirstImpact]:
-        return self.add_impact(locate(self.flights(phases), horizon=self.horizon, floats=floats))
-
     def slopes(self, points: list[Fraction]) -> tuple[str, SlopeRange]:
-        """Prove f C^1 on [points[0], points[-1]] and enclose f' there (rule slope-range)."""
-        return self.seen_or_proved(partial(self._slopes, points))
+        """Prove f C^1 on [points[0], points[-1]] and enclose f' there (rule slopes)."""
 
-    def _slopes(self, points: list[Fraction], floats: bool) -> tuple[str, SlopeRange]:
-        parts = self._impacts((points[0], points[-1]), floats)
-        branch = Branch(parts, self.bits, floats)
-        cuts = sorted({*points, *branch.ends})
-        found = extremes(lambda x: branch.slope(x, x), branch.curvature, cuts)
-        return self.derive("slope-range", branch.witness(found.points))
+        def slope(x: Fraction) -> Range:
+            return self.map.jacobian(enclosed(((x, x),), BITS))[0][0].range
+
+        def bend(low: Fraction, high: Fraction) -> Range:
+            return self.map.bend(enclosed(((low, high),), BITS)).range
+
+        cuts = texts(extremes(slope, bend, points).points)
+        witness = {"function": self.function, "points": cuts, "bits": str(self.bits)}
+        return self.derive("slopes", witness)
 
     def avoids(self, phases: Range, target: Range) -> tuple[str, Avoids]:
         """Prove that no phase of `phases` has its first impact in `target` (rule avoids)."""
@@ -156,13 +163,16 @@ class Prover:
         flights = [self.add_impact(part)[0] for part in parts]
         return self.derive("avoids", {"flights": flights, "target": texts(target)})
 
-    def point(self, phase: Fraction) -> tuple[str, Impact]:
-        """Enclose f and f' at one phase (rule point)."""
-        return self.seen_or_proved(partial(self._point, phase))
-
-    def _point(self, phase: Fraction, floats: bool) -> tuple[str, Impact]:
-        branch = Branch([self._impact((phase, phase), floats)], self.bits, floats)
-        return self.derive("point", branch.bracket(phase, phase, phase=str(phase)))
+    def point(self, phase: Fraction) -> tuple[str, Differential]:
+        """Enclose f and f' at one phase (rule differential)."""
+        (image,) = self.map.values(enclosed(((phase, phase),), BITS))
+        witness = {
+            "function": self.function,
+            "box": [texts((phase, phase))],
+            "turns": [str(image.range[0] // TURN)],
+            "bits": str(self.bits),
+        }
+        return self.derive("differential", witness, "point")
 
     def root(self, ratios: Range) -> tuple[str, MoranRoot]:
         """Bracket the root of r0^s + r1^s = 1 (rule moran-root)."""
@@ -177,7 +187,7 @@ class Prover:
     ) -> tuple[str, StayingSet]:
         """Prove what stays in a region (rule staying-set).
 
-        cells: each a slope-range step and two of its points.
+        cells: each a step of the rule slopes and two of its points.
         """
         witness = {
             "region": [texts(part) for part in region],

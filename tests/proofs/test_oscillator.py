@@ -152,8 +152,8 @@ def test_the_package_stays_light_until_it_is_asked():
 @pytest.mark.parametrize(
     ("ask", "rule", "forge"),
     [
-        (lambda: PLASTIC.image("1.13"), "point", ('"phase": "113/100"', '"phase": "57/50"')),
-        (lambda: PLASTIC.image(LEFT), "slope-range", ('"phase": "11/10"', '"phase": "27/25"')),
+        (lambda: PLASTIC.image("1.13"), "differential", ('"113/100"', '"6"')),
+        (lambda: PLASTIC.image(LEFT), "slopes", ('"points": [', '"points": ["0",')),
         (lambda: PLASTIC.image("4"), "separation", ('"eta": [', '"eta": ["1/7",')),
         (lambda: RESTITUTING.image("1.12", "-0.3"), "differential", ('"-3/10"', '"1/2"')),
         (

@@ -71,9 +71,7 @@ def prover():
 
 
 JOBS = {
-    "slopes": lambda by: by.slopes([Fraction("1.27"), Fraction("1.32")]),
     "avoids": lambda by: by.avoids(PAPER.gap, PAPER.interval),
-    "point": lambda by: by.point(Fraction("1.13")),
 }
 
 
@@ -110,5 +108,5 @@ def test_floats_alone_conclude_nothing(monkeypatch):
     monkeypatch.setattr(Sketch, "sincos", lambda self: plain(self * Fraction("1.1")))
     made = prover()
     with pytest.raises(Unproved):
-        made._point(Fraction("1.13"), True)
-    assert "point-1" not in made.known
+        made._impacts((Fraction("1.13"), Fraction("1.14")), True)
+    assert "first-impact-1" not in made.known

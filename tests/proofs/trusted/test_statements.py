@@ -5,7 +5,6 @@ from fractions import Fraction
 
 import pytest
 
-from proofs.trusted.flights import PlasticMap
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.images import ImageArc, image_arc
 from proofs.trusted.kernel.laps import SlopeRange
@@ -21,6 +20,7 @@ from proofs.trusted.numbers import (
     show,
     show_range,
 )
+from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s32_sets.moran import Digits, NoGap
 from proofs.trusted.parameters import PAPER, Parameters

@@ -8,7 +8,6 @@ from fractions import Fraction
 from math import prod
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.flights import PlasticMap
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.kernel.context import Context
@@ -24,6 +23,7 @@ from proofs.trusted.numbers import (
     show,
     show_range,
 )
+from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.paper.s34_circle.landing import Lands, NeverImpacts, Separation
 
 _MOST_NAMED = 12  # cells

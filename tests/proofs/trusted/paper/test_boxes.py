@@ -165,8 +165,8 @@ def test_a_box_says_nothing_of_claims_nor_of_rules_for_one_oscillator():
 
 
 ALL_OVER_A_BOX = {
-    "avoids", "branch", "first-impact", "itinerary", "lands", "passes-separation", "point",
-    "separation", "slope-range", "staying-set", "superstable-motion",
+    "avoids", "branch", "first-impact", "itinerary", "lands", "passes-separation",
+    "separation", "staying-set", "superstable-motion",
 }  # fmt: skip
 ONE_OSCILLATOR = {  # of branches those with long flights
     "branch", "dimension", "grazing", "never-impacts",
