@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from intervals import Undecided
 from proofs.methods.derivation import Derivation
 from proofs.methods.sampling import Floats, Sampled, ranges_of
 from proofs.trusted.certificate import texts
