@@ -160,7 +160,7 @@ class Map:
 
     def periodic_orbits(self, period: int, box: Box) -> Theorem:
         """Prove which periodic orbits a formula has in a box, and that there are no others."""
-        from proofs.methods.newton import prove_all_orbits
+        from proofs.methods.periodic import prove_all_orbits
 
         file = self._derivation()
         sides = self.region(box)
