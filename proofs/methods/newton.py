@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from contextlib import suppress
 from fractions import Fraction
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from intervals import Undecided
 from proofs.methods.derivation import Derivation
 from proofs.methods.sampling import Floats, Sampled, ranges_of
 from proofs.trusted.certificate import texts
@@ -20,7 +20,7 @@ from proofs.trusted.kernel.periodic import Closing
 from proofs.trusted.kernel.zeros import Piece, krawczyk
 from proofs.trusted.numbers import Range
 
-_FOLLOWED, _SETTLING, _FAR, _CLOSE = 30, 150, 1e6, 1e-3  # points of an attractor
+_FAR = 1e6  # where points are lost
 _STEPS, _NEAR, _STILL = 12, 1e-9, 1e-13  # of Newton's method
 _SAME = 1e-6  # the distance of points that are one
 _BITS = 160  # of boxes around points
@@ -140,58 +140,20 @@ def _settled(sampled: Sampled, x: Floats, steps: int) -> Floats:
     return x
 
 
-def settled(sampled: Sampled, box: Sequence[Range]) -> Floats:
-    """Return where points at random in a box are after many steps, without those that are lost."""
-    return seeds(sampled, box, _FOLLOWED, _SETTLING)[:, _FOLLOWED:]
-
-
-def attractors(sampled: Sampled, x: Floats, longest: int) -> list[Cycle]:
-    """Return the attracting periodic orbits, up to a period, that settled points come to."""
-    found: list[Cycle] = []
-    after = x
-    for period in range(1, longest + 1):
-        after = sampled(after)
-        apart = after - x - whole_periods(sampled, (after - x).T).T
-        near = (np.abs(apart) < _CLOSE * (1 + np.abs(x))).all(axis=0)
-        found += [each for each in cycles(sampled, period, x[:, near]) if each.multipliers[-1] < 1]
-        x, after = x[:, ~near], after[:, ~near]
-    return found
-
-
-def fates(sampled: Sampled, x: Floats, cycles: Sequence[Cycle]) -> list[str]:
-    """Say what becomes of points at random: they come to attracting orbits, get lost, or go on.
-
-    x: those of them that are settled.
-    """
-    followed = f"of {_FOLLOWED} points at random in the region {x.shape[1]}"
-    ends = [f"{followed} are followed for {_SETTLING} steps"]
-    if lost := _FOLLOWED - x.shape[1]:
-        ends.append(
-            f"{lost} are lost before: they come to rest, perhaps by chatter, go far away, or have "
-            "no impact soon; for others give a region"
-        )
-    near = [
-        {k for k, each in enumerate(cycles) if _comes_to(sampled, point, each)} for point in x.T
-    ]
-    for k, cycle in enumerate(cycles):
-        count = sum(k in each for each in near)
-        place = ", ".join(f"{value:.6g}" for value in cycle.points[0])
-        ends.append(f"{count} come to an orbit of period {len(cycle.points)} through ({place})")
-    if others := sum(not each for each in near):
-        ends.append(f"{others} come to no orbit of a period up to 8")
-    return ends
-
-
-def _comes_to(sampled: Sampled, point: Floats, cycle: Cycle) -> bool:
-    return bool((distance(sampled, point, cycle.points) < _CLOSE).any())
-
-
 def prove_orbits(file: Derivation, function: str, cycles: Sequence[Cycle]) -> list[str]:
-    """Add steps `periodic-orbit` about those orbits for which they are concluded."""
-    steps = []
+    """Add steps `periodic-orbit` about those orbits for which they are concluded.
+
+    Raises Undecided where there is none, with the last reason.
+    """
+    steps, reason = [], "none is seen"
     for cycle in cycles:
-        with suppress(Unproved):
+        try:
             steps.append(_prove_orbit(file, function, cycle))
+        except Unproved as error:
+            place = ", ".join(f"{value:.6g}" for value in cycle.points[0])
+            reason = f"of {len(cycles)} that are seen none, such as that through ({place}): {error}"
+    if not steps:
+        raise Undecided(reason)
     return steps
 
 
