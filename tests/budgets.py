@@ -31,7 +31,7 @@ BUDGETS = {
     "loose modules": 9,  # of the package proofs
     "tracked files": 910,
     "headline": 8_690,  # lines of the files that run to check reports/horseshoe.json
-    "way of H2": 7_400,  # lines of the files that run to prove H2 and to check it
+    "way of H2": 7_420,  # lines of the files that run to prove H2 and to check it
     "way of H2, files": 50,
 }
 
