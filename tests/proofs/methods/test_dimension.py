@@ -61,23 +61,6 @@ def test_all_published_digits_of_continued_fractions():
     assert low * 10**100 - 1 < published < high * 10**100 + 1
 
 
-@pytest.mark.parametrize(
-    "maps",
-    [
-        [(Fraction(1, 3), 0), (Fraction(1, 3), Fraction(2, 3))],
-        [(Fraction("0.1905"), 0), (Fraction("0.2381"), Fraction("0.7"))],
-        [
-            (Fraction(-1, 5), Fraction(1, 4)),
-            (Fraction(1, 3), Fraction(1, 2)),
-            (Fraction(1, 9), Fraction(8, 9)),
-        ],
-    ],
-)
-def test_linear_sets_by_moran(maps):
-    low, high = dimension(lines(*maps), AROUND, 12).bounds
-    assert low < moran([abs(r) for r, _ in maps]) < high
-
-
 def of_e2(digits=8, s=None):
     """A candidate for the continued fractions, its branches, and how it is proved."""
     branches = Formulas(e2, Ellipse(E2_HULL, Fraction(6)))
@@ -122,16 +105,6 @@ CHANGES = {
     "few bits": ({}, {"bits": 64}),
     "another function": ({"coefficients": (Fraction(1), Fraction(-1, 4))}, {}),
 }
-
-
-@pytest.mark.parametrize("name", CHANGES)
-def test_what_makes_the_bound_wide(name):
-    branches, trial, by = of_e2(16)
-    of_trial, of_by = CHANGES[name]
-    rough = growth(branches, replace(trial, **of_trial), replace(by, **of_by))
-    low, high = rough.bounds
-    assert low < 1 < high or name == "another function"
-    assert high - low > Fraction(1, 10**16)
 
 
 WRONG = {
@@ -183,9 +156,3 @@ def test_without_contraction_nothing_is_said():
     """On [0, 1] the derivative of 1 / (1 + x) is -1 at 0."""
     with pytest.raises(Undecided):
         dimension(e2, UNIT, 2)
-
-
-@pytest.mark.slow
-def test_a_pole_is_no_dimension():
-    with pytest.raises(Undecided):
-        dimension(lambda x: [1 / (2 * x - 1), 1 / (3 + x)], UNIT, 4)

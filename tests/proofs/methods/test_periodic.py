@@ -138,23 +138,6 @@ def test_images_beyond_the_domain():
             assert one.points[0][0].intersection(two.points[0][0]) is not None
 
 
-def test_no_cells_no_orbits():
-    nothing = on_line(lambda x: x.sqr() + 2, -10, 10)
-    assert not len(nothing.cells[0])
-    assert periodic_orbits(nothing, 3) == []
-
-
-def test_a_rotation_by_a_quarter():
-    """The origin alone is fixed by the first three iterates; the fourth is the identity."""
-    square = (Interval(-1, 1), Interval(-1, 1))
-    cover = invariant_cover(lambda x, y: [-y, 1 * x], Region(square), depth=4)
-    for period in (1, 2, 3):
-        (origin,) = periodic_orbits(cover, period)
-        assert origin.period == 1 and all(side.contains(0) for side in origin.points[0])
-    with pytest.raises(Undecided):
-        periodic_orbits(cover, 4, limit=10_000)
-
-
 @pytest.mark.parametrize(
     ("f", "low", "high", "period", "reason"),
     [
@@ -169,26 +152,3 @@ def test_undecided(f, low, high, period, reason):
     """A point at an end; a double root at 1/2; fixed points that are not isolated."""
     with pytest.raises(Undecided, match=reason):
         periodic_orbits(on_line(f, low, high), period, limit=20_000)
-
-
-def test_the_message_has_the_box():
-    parabola = on_line(lambda x: x.sqr() + Fraction(1, 4), -2, 2)
-    with pytest.raises(Undecided) as caught:
-        periodic_orbits(parabola, 1)
-    low, high = (float(end) for end in str(caught.value).split("[")[1].rstrip("]").split(","))
-    assert low <= high and abs(low - 0.5) < 1e-5 and abs(high - 0.5) < 1e-5
-
-
-def test_near_a_double_root():
-    """x^2 + 1/4 - e^2 has the fixed points 1/2 - e and 1/2 + e; x^2 + 1/4 + e^2 none."""
-    e = Fraction(1, 1000)
-    apart = on_line(lambda x: x.sqr() + Fraction(1, 4) - e**2, -2, 2)
-    low, high = (orbit.points[0][0] for orbit in periodic_orbits(apart, 1))
-    assert low.contains(Fraction(1, 2) - e) and high.contains(Fraction(1, 2) + e)
-    none = on_line(lambda x: x.sqr() + Fraction(1, 4) + e**2, -2, 2)
-    assert periodic_orbits(none, 1) == []
-
-
-def test_a_period_is_positive():
-    with pytest.raises(ValueError, match="at least 1"):
-        periodic_orbits(LOGISTIC, 0)

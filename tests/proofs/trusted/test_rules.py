@@ -207,32 +207,7 @@ def test_point(known, phase):
     assert found.image[0] <= exact(image) <= found.image[1] < found.image[0] + near
 
 
-@pytest.mark.parametrize(
-    ("reach", "shift"),
-    [
-        ("1e-20", "2e-20"),
-        ("1e-20", "-2e-20"),
-        ("1e-3", "2e-3"),
-        ("1e-3", "-2e-3"),
-        ("1e-30", "1e-29"),
-    ],
-)
-def test_point_bracket_beside_the_impact(known, reach, shift):
-    low, high = (Fraction(end) + Fraction(shift) for end in bracket("1.15", reach))
-    refused(
-        "point", {"flight": "impact", "phase": "23/20", "time": times(low, high)}, known, "signs"
-    )
-
-
 # -- phases mod 2 pi -------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("phase", ["0", "0.752", "1.15", "6.2831853"])
-@pytest.mark.parametrize("time", ["0.001", "5.5311", "24.38", "56.1685", "12345.678"])
-def test_phase_after_is_the_phase_mod_a_turn(phase, time):
-    low, high = phase_after(Fraction(phase), (Fraction(time), Fraction(time)), 80)
-    true = exact((mpf(phase) + mpf(time)) % (2 * mp.pi))
-    assert low <= true <= high < low + Fraction(1, 10**15)
 
 
 @pytest.mark.slow
@@ -410,15 +385,6 @@ def test_moran_root(reach):
     assert found.root[0] < S0 < found.root[1]
     s = mp.findroot(lambda s: mpf("0.1905") ** s + mpf("0.2381") ** s - 1, 0.45)
     assert abs(exact(s) - S0) < Fraction(1, 10**42)
-
-
-@pytest.mark.parametrize("reach", ["1e-1", "1e-15", "1e-25", "1e-40"])
-@pytest.mark.parametrize("side", [1, -1])
-def test_moran_root_beside_the_bracket(reach, side):
-    off = side * 2 * Fraction(reach)
-    refused(
-        "moran-root", root(S0 + off - Fraction(reach), S0 + off + Fraction(reach)), None, "signs"
-    )
 
 
 # -- signs that no precision decides ---------------------------------------------------------------

@@ -55,19 +55,6 @@ def test_it_goes_nearly_to_the_fold_and_to_the_flip():
 # -- what it rests on ------------------------------------------------------------------------------
 
 
-def test_nothing_is_decided_without_any_part():
-    motion, *cycles = proof()
-    row = find("G16")
-    inner = sorted(cycles, key=lambda each: each.place.epsilon)[1]
-    thin = at(inner, *inner.place.epsilon[:1] * 2)
-    elsewhere = replace(PAPER, eta=Fraction("0.2122"))
-    assert row.decide(PAPER, [motion]).verdict.value == "UNDECIDED"
-    assert row.decide(PAPER, cycles).verdict.value == "UNDECIDED"
-    assert row.decide(PAPER, [motion, thin]).verdict.value == "UNDECIDED"
-    assert row.decide(PAPER, [x for x in proof() if x != inner]).verdict.value == "UNDECIDED"
-    assert row.decide(elsewhere, proof()).verdict.value == "UNDECIDED"
-
-
 def at(cycle, *ends, **sides):
     place = replace(cycle.place, epsilon=tuple(map(Fraction, ends)), **sides)
     return replace(cycle, function=flight(place.sides))

@@ -21,10 +21,9 @@ from proofs.trusted.equations import clock, return_map_derivative
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.paper import BEYOND
-from proofs.trusted.paper.beyond.curves import ROWS, curves, sticking
+from proofs.trusted.paper.beyond.curves import ROWS
 from proofs.trusted.paper.beyond.grazing import (
     ETA,
-    GrazingCurve,
     P,
     gap_along,
     grazing_curve,
@@ -33,7 +32,7 @@ from proofs.trusted.paper.beyond.grazing import (
     single_launch,
     touch,
 )
-from proofs.trusted.paper.beyond.meetings import Meeting, meeting
+from proofs.trusted.paper.beyond.meetings import meeting
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import check
@@ -114,32 +113,6 @@ def test_soft_springs_are_the_bouncing_ball(epsilon):
             assert 2 * nu_at(n, q, eta, p) / eta**2 == pytest.approx(rho, rel=1e-5)
 
 
-@pytest.mark.parametrize("epsilon", [0.0, 0.3])
-def test_ends_of_the_closed_curves(epsilon):
-    q, n, near = (1 - epsilon) / (1 + epsilon), 2, 1e-7
-    share = 0.25 * (1 + q * q)
-    assert nu_at(n, q, 0.5 - near, fold(n, q, 0.5 - near)) < 1e-5
-    assert nu_at(n, q, 0.5 - near, flip(n, q, 0.5 - near)) == pytest.approx(share / (1 - share))
-    assert nu_at(n, q, 0.5 - near, 0.25) == pytest.approx(1 / 3)  # 1/(n^2 - 1)
-    assert nu_at(n, q, 0.25 - near, fold(n, q, 0.25 - near)) == pytest.approx(1)
-    assert flip(n, q, 0.25 - near) > 1
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("row", "theorem"), [(ROWS[0], curves), (ROWS[3], sticking)])
-def test_the_theorem_needs_each_lemma(row, theorem):
-    from proofs.search.derivations import Steps
-    from proofs.trusted.verdicts import Found
-
-    steps = Steps(20)
-    proved = [steps.prove(need)[1] for need in theorem.needs]
-    assert row.own and row.decide(PAPER, proved).verdict is Verdict.VERIFIED
-    for k in range(len(proved)):
-        rest = [*proved[:k], *proved[k + 1 :]]
-        assert row.decide(PAPER, rest).verdict is Verdict.UNDECIDED
-        assert theorem.prove(Found(PAPER, rest)) is None
-
-
 # -- curves of grazing, and what false witnesses come to -------------------------------------------
 
 
@@ -164,16 +137,6 @@ def checked():
 def judged(witness):
     """What the second step says beside the first one."""
     return meeting(Context(known={"grazing-curve-1": checked()}), Reader(witness))
-
-
-@pytest.mark.slow
-def test_prover_and_checker_conclude_the_same():
-    curve, point = checked(), judged(steps_of()[1])
-    (_, own), (_, meets) = found().found[0], found().meetings[0]
-    assert isinstance(own, GrazingCurve) and isinstance(meets, Meeting)
-    assert (curve.sentence, curve.brief) == (own.sentence, own.brief)
-    assert (point.sentence, point.quantities) == (meets.sentence, meets.quantities)
-    assert all(high - low < F(1, 10**12) for low, high in (*curve.amplitudes, point.amplitude))
 
 
 @pytest.mark.slow

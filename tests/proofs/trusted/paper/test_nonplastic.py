@@ -132,7 +132,6 @@ ONE_OPEN = {"N1": "REFUTED", "N2": "UNDECIDED"}
         slow(WIDER, {"N1": "VERIFIED", "N2": "VERIFIED"}, []),
         slow(other(epsilon=Fraction(0)), ONE_OPEN, []),  # the left edge of V1 fails
         slow(other(velocities=pair_of("-0.3", 0)), ONE_OPEN, []),  # images leave them
-        slow(other(velocities=pair_of("0.5", 1)), BOTH_OPEN, []),  # impossible states
         (other(epsilon=None), BOTH_OPEN, []),
         (other(velocities=None), BOTH_OPEN, []),
     ],
