@@ -5,6 +5,7 @@ digits). At phase 1.2 the gap has a minimum of 1.06e-5 near time 25.874 and vani
 56.16847...; at phase 1.15 it vanishes at 25.32582... and is positive again at 27.
 """
 
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 
@@ -255,6 +256,14 @@ def test_slope_range_contains_the_slopes_between(known):
         assert low < exact(reference.slope(mpf("0.2121"), mpf("-0.2"), phase, flight)) < high
 
 
+def test_a_flight_of_a_part_of_a_piece_is_no_flight_of_it(known):
+    short = replace(known["impact"].motion, phases=(Fraction("1.14"), Fraction("1.145")))
+    witness = slope_witness()
+    witness["pieces"][0]["flight"] = "short"
+    short = {**known, "short": replace(known["impact"], motion=short)}
+    refused("slope-range", witness, short, "about other phases")
+
+
 def test_curvature():
     """f''(1.15), from differences of the root of equation (10)."""
     reach = Fraction(1, 10**30)
@@ -308,6 +317,14 @@ def test_avoids_refuses_a_target_that_is_entered(target):
     refused(
         "avoids", {"flights": ["a", "b"], "target": times(*target)}, gap_flights(), "miss", Unproved
     )
+
+
+def test_avoids_needs_flights_that_follow_one_another():
+    flights = gap_flights()
+    later = replace(flights["b"].motion, phases=(Fraction("1.146"), Fraction("1.15")))
+    flights["later"] = replace(flights["b"], motion=later)
+    witness = {"flights": ["a", "later"], "target": times("2", "6")}
+    refused("avoids", witness, flights, "do not continue")
 
 
 def test_avoids_counts_every_window():

@@ -231,6 +231,14 @@ def test_separation_against_fifty_digits(arc):
     assert arc.returns
 
 
+def test_a_bracket_that_begins_at_the_separation_is_none():
+    """To the precision of a wide bracket the push is 0 at its lower end."""
+    leave = Fraction(mp.nstr(reference.separation_phase(ETA, NU), 45))
+    witness = separating() | {"phase": texts((leave - Fraction(1, 10**40), leave + SMALL))}
+    with pytest.raises(Unproved, match="does not change sign"):
+        apply("separation", witness)
+
+
 def test_a_phase_that_flies_is_no_separation(arc):
     """The flights from [6.05, 6.0501] end between 23.7 and 23.75, but the launches do not stick."""
     witness = separating()

@@ -192,6 +192,9 @@ LIES = [
     edit("times", lambda x: x[1:]),
     entry("times", 0, lambda x: [*[t for t in x if F(t) < 10], x[-1]]),  # a rise in the last one
     entry("times", 0, lambda x: ["4", *[t for t in x if F(t) > 4]]),
+    entry(
+        "times", 0, lambda x: [t for t in x if not F("7.8") < F(t) < F("8.5")]
+    ),  # gap'' of no sign
 ]
 
 

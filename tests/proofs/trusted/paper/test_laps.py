@@ -311,6 +311,12 @@ def test_periodic_orbits_of_another_expansion_are_not_told_of(known):
     assert "periodic orbits of least period" in told.theorem
 
 
+def test_an_orbit_twice_is_no_two(steps, known):
+    forged = edited(steps, ("cycles-1", "witness", "orbits"), lambda old: [*old, old[0]])
+    with pytest.raises(Unproved, match="not proved different"):
+        derive(forged, OF, known, steps)
+
+
 def test_an_orbit_that_is_not_given_is_left_open(steps, known):
     (found,) = only(Cycles, known)
     forged = edited(steps, ("cycles-1", "witness", "orbits"), lambda old: old[1:])
