@@ -9,7 +9,6 @@ import sqlite3
 import subprocess
 import sys
 import time
-import tracemalloc
 from concurrent.futures import Future
 from contextlib import closing
 from fractions import Fraction
@@ -251,29 +250,6 @@ def test_what_is_no_store_is_one_line(tmp_path, capsys):
         atlas.main([*SMALL, "--out", str(tmp_path)])
     said = capsys.readouterr().err
     assert left.value.code == 2 and "not a database" in said and said.count("\n") == 1
-
-
-@pytest.mark.slow
-def test_memory_does_not_grow_with_the_number_of_cells(tmp_path):
-    """The head's own, of a region that is cut down to the depth everywhere."""
-
-    class Cuts(Here):
-        def submit(self, work, /, *data, **more):
-            _, depth, todo = data
-            ends = [SPLIT if len(key) - 2 < depth else "UNDECIDED" for key, _ in todo]
-            rows = [Row(key, end) for (key, _), end in zip(todo, ends, strict=True)]
-            return super().submit(lambda: rows)
-
-    region = atlas.Region((F("0.2"), F("0.3")), (F("0.1"), F("0.2")), "horseshoe")
-    peaks, counts = [], []
-    for depth in (4, 6):
-        with opened(tmp_path, region) as store:
-            tracemalloc.start()
-            counts.append(run(store, depth, (Cuts(), 1), 16))
-            peaks.append(tracemalloc.get_traced_memory()[1])
-            tracemalloc.stop()
-        (tmp_path / NAME).unlink()
-    assert counts == [341, 5461] and peaks[1] < 2 * peaks[0]
 
 
 @pytest.fixture

@@ -9,7 +9,6 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from flint import arb, ctx
 
 from proofs import horseshoe
 from proofs.shell import runner
@@ -82,19 +81,6 @@ def test_numbers_against_brute_force(outcome):
             _, slope = brute(reference.mpf(phi.numerator) / phi.denominator)
             least, most = (found[f"slope_{name}_{which}"] for name in ("min", "max"))
             assert float(least[0]) < slope < float(most[1])
-
-
-def test_moran_root_against_flint(outcome):
-    ctx.prec = 300
-    found = quantities(outcome)
-    for name, r0, r1 in (
-        ("s0", arb("0.1905"), arb("0.2381")),
-        ("s0_reciprocal_slopes", arb(4) / 21, arb(5) / 21),
-    ):
-        low, high = found[name]
-        powers = [arb(s.numerator) / s.denominator for s in (low, high)]
-        assert r0 ** powers[0] + r1 ** powers[0] > 1 > r0 ** powers[1] + r1 ** powers[1]
-        assert high - low < Fraction(1, 10**30)
 
 
 def test_the_corrected_theorem_is_about_the_nearest_printed_sets(outcome):

@@ -9,7 +9,7 @@ import random
 from dataclasses import replace
 from fractions import Fraction as F
 from functools import cache
-from itertools import pairwise, product
+from itertools import product
 
 import pytest
 
@@ -73,36 +73,6 @@ def image(phase):
     found = next_impact(OF.eta, OF.nu, F(phase), 7000.0)
     assert isinstance(found, Impact)
     return (float(found.lifted) + math.pi / 2) % TURN - math.pi / 2
-
-
-def words(ends, region, length):
-    """Count the words of pieces, between the ends given, that orbits in a region follow."""
-
-    @cache
-    def follow(low, high, left):
-        if left == 0:
-            return 1
-        total = 0
-        for first, last in ends:
-            one, two = max(low, first), min(high, last)
-            if one < two:
-                after = sorted((image(one), image(two)))
-                after = max(after[0], region[0]), min(after[1], region[1])
-                total += follow(*after, left - 1) if after[0] < after[1] else left == 1
-        return total
-
-    return follow(*region, length)
-
-
-@pytest.mark.slow
-def test_words_counted_by_brute_force_grow_as_is_proved(known):
-    (pieces,), (bounds,) = only(Pieces, known), only(EntropyRange, known)
-    ends = [tuple(map(float, piece.branch.phases)) for piece in pieces.monotone]
-    counts = [words(ends, tuple(map(float, pieces.region)), n) for n in (6, 7, 8)]
-    low, high = float(bounds.lower.growth), float(bounds.growth)
-    for before, after in pairwise(counts):
-        assert low * 0.999 < after / before < high * 1.001
-    assert counts[-1] > low**8
 
 
 # -- narrow grazes ---------------------------------------------------------------------------------

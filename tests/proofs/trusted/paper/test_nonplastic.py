@@ -1,7 +1,6 @@
 """Claims N1-N3: verdicts against independent numbers, and certificates that must be rejected."""
 
 import json
-import math
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
@@ -62,24 +61,6 @@ def test_extreme_images_of_the_edges(paper, name, state):
     true = corner(*state)
     assert mpf(printed["lower"]) <= true <= mpf(printed["upper"])
     assert mpf(printed["upper"]) - mpf(printed["lower"]) < mpf(10) ** -25
-
-
-def image(numbers, state, begin=0.1):
-    """F in floating point, by a scan of (14); no impact comes before the time `begin`."""
-    phi, gamma = state
-
-    def height(t):
-        return -reference.left_side_14(*numbers, phi, gamma, t, math.sin, math.cos)
-
-    t = begin
-    while height(t + 0.005) > 0:
-        t += 0.005
-    low, high = t, t + 0.005
-    for _ in range(40):
-        middle = (low + high) / 2
-        low, high = (middle, high) if height(middle) > 0 else (low, middle)
-    velocity = reference.right_side_15(*numbers, phi, gamma, low, math.sin, math.cos)
-    return (phi + low) % math.tau, velocity
 
 
 def other(**change):
