@@ -171,6 +171,16 @@ def test_integers_mix_in(piece, n, power, bits):
         assert quotient[0] <= x / n <= quotient[1]
 
 
+def test_only_positive_powers():
+    with pytest.raises(ValueError, match="positive"):
+        rational(Fraction(2), 64) ** 0
+
+
+def test_precisions_do_not_mix():
+    with pytest.raises(ValueError, match="precision"):
+        rational(Fraction(1), 64) + rational(Fraction(1), 65)
+
+
 @pytest.mark.parametrize("numerator", ["-1", "0", "1"])
 @pytest.mark.parametrize("divisor", [("-1", "1"), ("0", "1"), ("-1", "0"), ("0", "0")])
 def test_division_by_an_enclosure_of_zero_proves_nothing(numerator, divisor):

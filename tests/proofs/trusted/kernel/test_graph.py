@@ -219,6 +219,26 @@ def test_false_covers(changed):
     refused(changed, "not proved")
 
 
+@pytest.mark.every
+@pytest.mark.parametrize(
+    ("matrix", "inverse_of"),
+    [
+        ([["1", "1"], ["0", "1"]], [["1", "-1"], ["0", "1"]]),
+        ([["1", "1"], ["0", "1"]], [["1", "0"], ["-1", "1"]]),
+        ([["1", "1"], ["0", "1"]], [["1", "1"], ["0", "1"]]),
+        ([["1", "2"], ["2", "4"]], [["1", "2"], ["2", "4"]]),
+        ([["2", "0"], ["0", "1/2"]], [["2", "0"], ["0", "1/2"]]),
+        ([["1", "1"], ["0", "1"]], [["1", "-1"], ["0", "2"]]),
+        ([["1", "1"], ["0", "1"]], [["1", "-1"], ["1", "1"]]),
+    ],
+)
+def test_the_inverse_is_the_inverse(matrix, inverse_of):
+    changed = interval_file(TRIPLE, UNIT, UNIT)
+    witness_of(changed, "h-set").update(centre=["0", "0"], matrix=matrix, inverse=inverse_of)
+    true = inverse_of == [["1", "-1"], ["0", "1"]]
+    refused(changed, "one dimension" if true else "inverse", Malformed if true else Rejected)
+
+
 def plane_file(expressions, support=None):
     document = interval_file("x", UNIT, UNIT, trees={"support": support})
     document["functions"]["F"] = {"variables": ["x", "y"], "values": expressions}

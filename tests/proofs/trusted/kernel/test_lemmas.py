@@ -269,6 +269,11 @@ def test_a_slanted_box_is_looked_at_where_it_is():
     refused("arc", witness, "Krawczyk", F=cubic)
 
 
+@pytest.mark.parametrize("axis", ["z", "C", ""])
+def test_the_axis_is_a_variable(axis):
+    refused("arc", {**ARC, "axis": axis}, "variable", Malformed, C=CIRCLE)
+
+
 # -- the form of the file --------------------------------------------------------------------------
 
 

@@ -10,6 +10,7 @@ from itertools import pairwise
 
 import pytest
 
+from proofs.trusted.certificate import Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.oscillator import flight
 from proofs.trusted.paper import find
@@ -17,7 +18,7 @@ from proofs.trusted.paper.s34_circle.attractors import TwoAttractors
 from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
 from proofs.trusted.parameters import PAPER
 from tests.oracles.judge import oracle
-from tests.proofs.trusted.paper.steps import evidence
+from tests.proofs.trusted.paper.steps import add, derive, edited, evidence
 
 pytestmark = pytest.mark.slow
 
@@ -41,6 +42,19 @@ def test_what_is_said():
         assert words in decision.theorem
     assert "comes to rest" in decision.theorem and "two attractors" in decision.theorem
     assert oracle(both(), random.Random(1)) == []
+
+
+def test_nothing_is_decided_without_any_part():
+    motion, *cycles = proof()
+    row = find("G16")
+    inner = sorted(cycles, key=lambda each: each.place.epsilon)[1]
+    thin = at(inner, *inner.place.epsilon[:1] * 2)
+    elsewhere = replace(PAPER, eta=Fraction("0.2122"))
+    assert row.decide(PAPER, [motion]).verdict.value == "UNDECIDED"
+    assert row.decide(PAPER, cycles).verdict.value == "UNDECIDED"
+    assert row.decide(PAPER, [motion, thin]).verdict.value == "UNDECIDED"
+    assert row.decide(PAPER, [x for x in proof() if x != inner]).verdict.value == "UNDECIDED"
+    assert row.decide(elsewhere, proof()).verdict.value == "UNDECIDED"
 
 
 # -- what it rests on ------------------------------------------------------------------------------
@@ -90,3 +104,19 @@ def test_the_intervals_meet():
     ends = [each.place.epsilon for each in both().cycles]
     assert all(one[1] == two[0] for one, two in pairwise(ends))
     assert both().at.epsilon == (ends[0][0], ends[-1][1])
+
+
+EDITS = [
+    (("function", "epsilon", 1), add("1/1000")),
+    (("function", "eta"), lambda ends: [add("1/1000")(end) for end in ends]),
+    (("box",), lambda box: box[::-1]),
+]
+
+
+@pytest.mark.parametrize(("path", "change"), EDITS)
+def test_an_edited_witness_is_refused(path, change):
+    name = evidence("persistence").proofs["G16"][-1][0]
+    steps = {name: evidence("persistence").steps[name]}
+    derive(steps)
+    with pytest.raises((Unproved, Malformed)):
+        derive(edited(steps, (name, "witness", *path), change))

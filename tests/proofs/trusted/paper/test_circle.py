@@ -38,6 +38,7 @@ from tests.oracles.motion import Impact, flight
 from tests.oracles.sources import committed
 from tests.proofs.trusted.paper import reference
 from tests.proofs.trusted.paper.steps import (
+    add,
     apply,
     derive,
     edited,
@@ -353,6 +354,22 @@ def derived():
 
 ABSORPTION, LANDS = ("absorption-1", "witness"), ("lands-1", "witness")
 LAST_LANDS, CELLS = ("lands-2", "witness"), (*ABSORPTION, "cells")
+
+
+EDITS = {
+    "a cut outside": ((*CELLS, 0, "cuts", -1), add(2**45), "outside the branch"),
+    "fewer turns": ((*LANDS, "turns"), lambda x: "2", "not negative"),
+    "no turns": ((*LANDS, "turns"), lambda x: "0", "stay up"),
+    "landing further": ((*LANDS, "cuts", -1), add("1/10"), "negative"),
+    "landing from before": ((*LANDS, "cuts", 0), add(-4), "stay up"),
+    "landing from sooner": ((*LAST_LANDS, "cuts", 0), add("-1e-7"), "not negative"),
+}
+
+
+@pytest.mark.parametrize("name", EDITS)
+def test_edited_steps_are_refused(derived, name):
+    path, change, message = EDITS[name]
+    refused(derived, edited(coarse(), path, change), message)
 
 
 def refused(derived, steps, message):

@@ -21,9 +21,10 @@ from proofs.trusted.equations import clock, return_map_derivative
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.paper import BEYOND
-from proofs.trusted.paper.beyond.curves import ROWS
+from proofs.trusted.paper.beyond.curves import ROWS, curves, sticking
 from proofs.trusted.paper.beyond.grazing import (
     ETA,
+    GrazingCurve,
     P,
     gap_along,
     grazing_curve,
@@ -32,7 +33,7 @@ from proofs.trusted.paper.beyond.grazing import (
     single_launch,
     touch,
 )
-from proofs.trusted.paper.beyond.meetings import meeting
+from proofs.trusted.paper.beyond.meetings import Meeting, meeting
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import check
@@ -113,6 +114,21 @@ def test_soft_springs_are_the_bouncing_ball(epsilon):
             assert 2 * nu_at(n, q, eta, p) / eta**2 == pytest.approx(rho, rel=1e-5)
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(("row", "theorem"), [(ROWS[0], curves), (ROWS[3], sticking)])
+def test_the_theorem_needs_each_lemma(row, theorem):
+    from proofs.search.derivations import Steps
+    from proofs.trusted.verdicts import Found
+
+    steps = Steps(20)
+    proved = [steps.prove(need)[1] for need in theorem.needs]
+    assert row.own and row.decide(PAPER, proved).verdict is Verdict.VERIFIED
+    for k in range(len(proved)):
+        rest = [*proved[:k], *proved[k + 1 :]]
+        assert row.decide(PAPER, rest).verdict is Verdict.UNDECIDED
+        assert theorem.prove(Found(PAPER, rest)) is None
+
+
 # -- curves of grazing, and what false witnesses come to -------------------------------------------
 
 
@@ -137,6 +153,16 @@ def checked():
 def judged(witness):
     """What the second step says beside the first one."""
     return meeting(Context(known={"grazing-curve-1": checked()}), Reader(witness))
+
+
+@pytest.mark.slow
+def test_prover_and_checker_conclude_the_same():
+    curve, point = checked(), judged(steps_of()[1])
+    (_, own), (_, meets) = found().found[0], found().meetings[0]
+    assert isinstance(own, GrazingCurve) and isinstance(meets, Meeting)
+    assert (curve.sentence, curve.brief) == (own.sentence, own.brief)
+    assert (point.sentence, point.quantities) == (meets.sentence, meets.quantities)
+    assert all(high - low < F(1, 10**12) for low, high in (*curve.amplitudes, point.amplitude))
 
 
 @pytest.mark.slow
