@@ -139,15 +139,6 @@ def test_sqrt_contains_every_root():
         )
 
 
-def shrunk(x, seed):
-    """A random subset of each interval."""
-    rng = np.random.default_rng(seed)
-    t, s = (rng.choice([0.0, 0.25, 0.5, 1.0], x.shape) for _ in range(2))
-    lower, upper = x.mid * t + x.inf * (1 - t), x.mid * s + x.sup * (1 - s)
-    lower, upper = np.clip(lower, x.inf, x.mid), np.clip(upper, x.mid, x.sup)
-    return IntervalArray.from_floats(lower, upper)
-
-
 # -- construction ----------------------------------------------------------------------------------
 
 
@@ -272,9 +263,6 @@ ENDS = st.sampled_from([-math.inf, -MAX, -3.0, -1.0, 0.0, 0.5, 2.0, 1e200, MAX, 
 UNBOUNDED = st.tuples(ENDS, ENDS).map(sorted).filter(lambda x: x[0] < math.inf and x[1] > -math.inf)
 ONE = ["sqrt", "cbrt", "exp", "exp2", "exp10", "expm1", "log", "log2", "log10", "log1p", "asin"]
 ONE += ["atan", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "sin", "cos", "floor", "sign"]
-METHODS = ["minimum", "maximum"]
-
-
 INSIDE = st.sampled_from([-1e300, -1e9, -3.0, -1.0, 0.0, 0.25, 2.0, 1e9, 1e300])
 
 

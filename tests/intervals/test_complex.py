@@ -158,9 +158,6 @@ def test_hulls_are_not_wider_than_the_values_on_the_edges(name, real, imag):
         assert max(samples) - 1e-9 <= side.sup <= max(samples) + slack
 
 
-EXACT = ("exp", "sin", "cos", "sinh", "cosh", "sqr")  # monotone to the last bit
-
-
 BESIDE = [((-2, -1), (0, 1)), ((-2, -1), (0, 0)), ((-2, 1), (1, 2)), ((-2, 1), (-2, -1))]
 ACROSS = [((-2, -1), (-1, 1)), ((-2, -1), (-1, 0)), ((-2, 1), (-1, 1)), ((-2, 0), (-1, 0))]
 AT_ZERO = [((0, 1), (-1, 1)), ((0, 0), (0, 0)), ((0, 1), (0, 1)), ((-1, 1), (0, 1))]

@@ -134,10 +134,6 @@ def test_arithmetic_is_the_tightest_enclosure_of_the_range(symbol, data, p, q):
     assert bounds(result) == outward(min(values), max(values), max(p, q))
 
 
-S, L = Fraction(2**53 - 1, 2**52), Fraction(2**53 - 3, 2**51)  # no product of them has 53 bits
-SHAPES = [(-L, -S), (-L, ZERO), (-L, S), (-S, L), (ZERO, ZERO), (ZERO, L), (S, L), (S, S), (-S, -S)]
-
-
 @for_all(st.data(), precisions)
 def test_unary_operations(data, p):
     a, b = data.draw(boxes(p))

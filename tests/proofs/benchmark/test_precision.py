@@ -13,7 +13,7 @@ from xml.etree import ElementTree
 import pytest
 
 from intervals import Undecided
-from proofs.benchmark import codac_server, curves, horseshoe, peers, slopes, tasks
+from proofs.benchmark import codac_server, horseshoe, peers, slopes, tasks
 from proofs.benchmark.__main__ import main
 from proofs.benchmark.curves import Curve, Point
 from proofs.benchmark.diagrams import Diagram, svg
@@ -41,26 +41,6 @@ def test_rows_judge_orders_and_enclosures():
     assert wrong.row().reached is None
     missed = curve_of([1e-3, 31.0, 1e-9], proved=False, against="")
     assert "boxes 2: 3.1e+01" in missed.row().measured  # the worst of what is not proved
-
-
-@pytest.fixture
-def passing(monkeypatch):
-    """Time that passes only where a task says so."""
-    now = [0.0]
-    monkeypatch.setattr(curves, "perf_counter", lambda: now[0])
-    monkeypatch.setattr("proofs.benchmark.measure.perf_counter", lambda: now[0])
-    return now
-
-
-def way(passing, calls, name, seconds, sizes=(1, 4, 16, 64)):
-    def run(size):
-        if seconds(size) is None:
-            raise Undecided("too wide")
-        calls.append(name)
-        passing[0] += seconds(size)
-        return 1 / size
-
-    return Curve("work", name, "boxes", sizes, run)
 
 
 # -- the slopes ------------------------------------------------------------------------------------

@@ -4,7 +4,6 @@ from dataclasses import replace
 from fractions import Fraction
 
 import pytest
-from mpmath import findroot, mp, mpf
 
 from intervals import Undecided
 from proofs.methods.dimension import Formulas, dimension
@@ -21,7 +20,6 @@ E2 = Fraction(
 )
 E2_HULL = (Fraction("0.36"), Fraction("0.74"))
 UNIT = (Fraction(0), Fraction(1))
-AROUND = (Fraction(-1, 10), Fraction(11, 10))  # mapped into its inside, where [0, 1] may not be
 
 
 def e2(x):
@@ -31,14 +29,6 @@ def e2(x):
 def lines(*pairs):
     """The maps x -> r x + t."""
     return lambda x: [r * x + t for r, t in pairs]
-
-
-def moran(ratios, digits=40):
-    with mp.workdps(digits):
-        root = findroot(
-            lambda s: sum(mpf(r.numerator) ** s / mpf(r.denominator) ** s for r in ratios) - 1, 0.5
-        )
-        return Fraction(mp.nstr(root, digits))
 
 
 @pytest.mark.parametrize("digits", [3, 20, pytest.param(99, marks=pytest.mark.slow)])
@@ -98,13 +88,6 @@ def test_a_wrong_exponent_is_seen():
         assert max(abs(end - 1) for end in wrong.bounds) > abs(shift) / 2
         low, high = wrong.dimension(by.bits)
         assert low < E2 < high and high - low > abs(shift)
-
-
-CHANGES = {
-    "the remainder counts": ({}, {"nodes": 5}),
-    "few bits": ({}, {"bits": 64}),
-    "another function": ({"coefficients": (Fraction(1), Fraction(-1, 4))}, {}),
-}
 
 
 WRONG = {

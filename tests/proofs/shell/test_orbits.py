@@ -8,7 +8,6 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from itertools import pairwise
-from pathlib import Path
 
 import pytest
 from mpmath import mp, mpf
@@ -20,7 +19,6 @@ from proofs.search import periodic
 from proofs.trusted.parameters import PAPER
 from tests.proofs.trusted.paper import reference
 
-ROOT = Path(__file__).parents[3]
 ETA, NU = mpf("0.2121"), mpf("-0.2")
 EXACT = replace(
     PAPER,

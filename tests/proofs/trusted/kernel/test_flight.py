@@ -25,7 +25,7 @@ from tests.proofs.trusted.kernel.lemma_examples import add_orbit, horseshoe
 from tests.proofs.trusted.kernel.lemma_examples import ball as ball_example
 from tests.proofs.trusted.kernel.systems import BALL, SYSTEMS, box_of
 
-SLOW, LONG = pytest.mark.slow, pytest.mark.long
+SLOW = pytest.mark.slow
 BY_SPEED = [pytest.param(x, marks=() if x in ("rattle", "back") else SLOW) for x in SYSTEMS]
 SLIP = 1e-8  # of the simulation's values
 SLOPE_SLIP = 2e-6  # of its differences, as a part of the derivatives

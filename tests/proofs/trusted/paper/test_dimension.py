@@ -21,7 +21,6 @@ from proofs.trusted.verify import check
 from tests.proofs.trusted.paper import periodic_dimension
 from tests.proofs.trusted.paper.steps import evidence
 
-DIGITS = 5
 SLOPES = (Fraction(2), Fraction(9))
 LEFT, RIGHT = (Fraction("1.1"), Fraction("1.15")), (Fraction("1.27"), Fraction("1.32"))
 HULL = (LEFT[0], RIGHT[1])

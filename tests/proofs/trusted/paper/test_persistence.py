@@ -182,7 +182,7 @@ def test_the_short_proof_is_one():
     assert 3 <= len(cells) < 30
 
 
-FLIGHT, CHATTER = (ARC, "witness"), (MOTION, "witness")
+CHATTER = (MOTION, "witness")
 CELL = (*CHATTER, "cells", -1)
 
 
