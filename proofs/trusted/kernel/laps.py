@@ -43,9 +43,12 @@ def shifted(function: Subject, values: Range, turns: int) -> Range:
 
 
 def point_of(function: Subject, values: Range) -> Range:
-    """Return an enclosure of one point, if it can be compared with others; else Unproved."""
+    """Return an enclosure of one point, if it can be compared with others; else Unproved.
+
+    A whole turn is 0 once more, at the other end.
+    """
     turn = turn_of(function)
-    if turn is not None and not 0 <= values[0] <= values[1] <= turn:
+    if turn is not None and not 0 <= values[0] <= values[1] < turn:
         raise Unproved("an enclosure of a phase straddles a period")
     return values
 

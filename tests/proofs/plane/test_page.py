@@ -134,6 +134,6 @@ def test_the_page_says_what_impacts_it_is_about(tmp_path, epsilon, told, monkeyp
     with opened(tmp_path, region) as store:
         store.put([Row("0/", "UNDECIDED", "", "nothing is found")])
         made = summary.summary(store)
-        text = page(store, picture.shown(store, made), [])
+        text = page(store, picture.shown(store, made))
     lede = re.search('<p class="lede">(.*?)</p>', text)[1]
     assert re.sub("<.*?>", "", lede).startswith(f"{told}. In each cell")

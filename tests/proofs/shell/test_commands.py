@@ -18,6 +18,7 @@ from proofs.shell.groups import FILES, produce, wanted
 from proofs.trusted.manifest import command
 from proofs.trusted.parameters import PAPER
 from tests.proofs.shell.processes import AT, QUICK, ROOT, arguments_of
+from tests.proofs.trusted import corpus
 
 PACKAGES = {"benchmark", "formal", "report", "stress"}
 QUESTIONS = ["impact", "orbits", "single_impact"]
@@ -52,7 +53,7 @@ def test_a_command_is_named_first(capsys):
     said = capsys.readouterr().out
     assert impact.main([*AT, "--phi", "1.11"]) == 0
     assert capsys.readouterr().out == said
-    assert every.main(["check", str(ROOT / "tests/certificates/accepted/h16_alone.json")]) == 0
+    assert every.main(["check", str(corpus.path_of("accepted/h16_alone"))]) == 0
     with pytest.raises(SystemExit):
         every.main(["stress", "--help"])
     assert "python -m proofs stress" in capsys.readouterr().out
@@ -208,7 +209,7 @@ def piped(text):
 
 @pytest.mark.slow
 def test_the_checker_reads_what_is_piped_in():
-    text = (ROOT / "tests/certificates/accepted/h16_alone.json").read_bytes()
+    text = corpus.path_of("accepted/h16_alone").read_bytes()
     done = piped(text)
     assert done.returncode == 0 and done.stdout.startswith(b"standard input: accepted")
     for wrong in (b"", b"\xff", text[:100], b" " * 5_000_000):

@@ -1,4 +1,4 @@
-"""No edited certificate proves what is not so; the committed corpus and its exit statuses."""
+"""No edited certificate proves what is not so; the corpus and its exit statuses."""
 
 import json
 import random
@@ -149,19 +149,12 @@ STATUS = {"accepted": 0, "rejected": 1, "malformed": 2}
 @pytest.mark.parametrize("name", corpus.CORPUS)
 def test_corpus(name, capsys):
     path, entry = corpus.path_of(name), corpus.CORPUS[name]
-    assert path.read_text(encoding="utf-8") == entry.make()
     status = check_file(path, DEFAULT)
     printed = capsys.readouterr()
     assert status == STATUS[path.parent.name]
     assert entry.message in printed.err and bool(entry.message) == (status > 0)
     assert len(printed.err.splitlines()) == (status > 0)
     assert bool(printed.out) == (status == 0)
-
-
-def test_the_table_has_all_files():
-    files = {path for path in corpus.FOLDER.rglob("*") if path.is_file()}
-    named = {corpus.path_of(name) for name in corpus.CORPUS}
-    assert files - named == {corpus.FOLDER / "README.md"}
 
 
 def test_accepted_certificate_says_what_the_prover_says_today():

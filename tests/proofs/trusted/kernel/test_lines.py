@@ -21,7 +21,7 @@ from proofs.trusted.verdicts import Found, Verdict
 from proofs.trusted.verify import premises
 from tests.proofs.trusted.edits import at
 from tests.proofs.trusted.kernel.lemma_examples import text
-from tests.proofs.trusted.kernel.lines import CLAIMS, FUNCTIONS, SHOE, STEPS
+from tests.proofs.trusted.kernel.lines import CLAIMS, FUNCTIONS, SHOE, STEPS, slopes, staying
 from tests.proofs.trusted.kernel.test_flight import BARRED, barred
 
 
@@ -119,6 +119,22 @@ def test_lies_are_refused(name, path, value, reason):
     at(steps[name], path[:-1])[path[-1]] = value
     with pytest.raises((Unproved, Malformed), match=reason):
         derived(steps)
+
+
+@pytest.mark.parametrize("formula", ["8*x", "8*x - (sqrt(2)**2 - 2)**2"])
+def test_a_point_that_may_be_a_whole_turn_is_not_the_last_one_of_the_circle(formula):
+    """x -> 8 x takes 3/8, an end of D, to 3, which is 0, in A: D meets A in it, and misses it not.
+
+    The second formula is the same map, its values enclosed from below: 3 in [3 - u, 3].
+    """
+    sets = [("A", ["0", "3/32"]), ("D", ["9/32", "3/8"]), ("E", ["19/32", "11/16"])]
+    data = {"variables": ["x"], "values": [formula], "parameters": {}, "periods": {"x": "1"}}
+    context = Context()
+    context.functions["K"] = read_map("K", Reader(data), {})
+    steps = {name: slopes("K", *ends) for name, ends in sets}
+    steps["set"] = staying([ends for _, ends in sets], sets, [])
+    with pytest.raises(Unproved, match=r"straddles|neither covered nor missed"):
+        derived(steps, context)
 
 
 def test_what_is_about_another_map_decides_no_claim():
