@@ -213,8 +213,8 @@ def _flows() -> list[Published]:
             },
             [
                 "The map is the first return to the half plane x = 0, x rising. In the direction "
-                "that contracts a turn takes distances to 10^-11 of themselves or less. The checker "
-                "derives the horseshoe again with `--work 16000000`, in some twenty seconds.",
+                "that contracts a turn takes distances to 10^-11 of themselves or less. The "
+                "checker derives the horseshoe again with `--work 16000000`, in some 20 seconds.",
             ],
             [
                 "that there are no other orbits of these periods",

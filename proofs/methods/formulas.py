@@ -118,5 +118,5 @@ def subdivide(
 
 
 def shares(box: Box, scale: Box) -> list[Fraction]:
-    """Return the sides of a box as parts of those of a scale, as they are where these are points."""
+    """Return the sides of a box as parts of those of a scale, where these are no points."""
     return [(b - a) / (d - c or 1) for (a, b), (c, d) in zip(box, scale, strict=True)]

@@ -196,7 +196,7 @@ def test_an_orbit_of_the_billiard_whose_flights_last_half_a_period():
 
 @pytest.mark.long
 def test_the_horseshoe_of_roesslers_flow():
-    """CAPD proves that on two sets the second return is conjugate to the shift, by cones as well."""
+    """CAPD proves that on two sets the second return has the shift, by cones as well."""
     system = System.example("roessler")
     system.effort = 5
     entropy, conjugacy = accepted(system.horseshoe(), 2 * DEFAULT)
