@@ -7,13 +7,13 @@ exactly one periodic orbit of least period 4 that begins at ...
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from copy import copy
 from fractions import Fraction
 from typing import Any, Self
 
 from intervals import Undecided
-from proofs.methods.grammar import GrammarError, canonical, exact, name, names
+from proofs.methods.grammar import GrammarError, canonical, exact, name, names, typed
 from proofs.theorem import Theorem
 from proofs.trusted.certificate import Malformed, texts
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -47,17 +47,21 @@ class Map:
         **parameters: Ends,
     ) -> None:
         values = [canonical(text) for text in formulas]
-        given = [name(each) for each in parameters]
-        free = sorted({each for text in values for each in names(text)} - {*given})
-        state = list(map(name, variables)) or free
-        if unknown := sorted({*free} - {*state}):
-            raise GrammarError(f"{unknown[0]} has no value: give {unknown[0]}=... to Map")
+        fields = optional(parameters, periods or {})
+        given = fields.get("parameters", {})
+        texts_ = [*values, *fields.get("periods", {}).values()]
+        there = {each for text in texts_ for each in names(text)}
+        state = list(map(name, variables)) or sorted(there - {*given})
+        if unknown := sorted(there - {*given, *state}):
+            raise GrammarError(f"{listed(unknown)} has no value: give one among the parameters")
+        if unused := sorted({*given} - there):
+            raise GrammarError(f"the parameter {typed(unused[0])} is in none of the formulas")
         if len(state) != len(values):
             raise GrammarError(
-                f"{len(values)} formulas for the variables {', '.join(state) or '(none)'}: as many "
+                f"{len(values)} formulas for the variables {listed(state) or '(none)'}: as many "
                 "are expected; give numbers to parameters, as in Map('r*x', r='2')"
             )
-        self._begin({"F": _function(state, values, parameters, periods or {})}, "F")
+        self._begin({"F": {"variables": state, **fields, "values": values}}, "F")
 
     def _begin(self, functions: Mapping[str, Any], function: str) -> None:
         from proofs.methods.derivation import Derivation
@@ -80,9 +84,8 @@ class Map:
     def at(self, **parameters: Ends) -> Self:
         """Return the same with other values, or ranges, of some parameters."""
         other = copy(self)
-        sides = {name: texts(ends_of(ends)) for name, ends in parameters.items()}
         function = self.functions[self.function]
-        known = {**function.get("parameters", {}), **sides}
+        known = {**function.get("parameters", {}), **optional(parameters, {}).get("parameters", {})}
         other._begin({self.function: {**function, "parameters": known}}, self.function)
         other.box, other.effort = dict(self.box), self.effort
         return other
@@ -101,6 +104,14 @@ class Map:
         """Return the definition."""
         return self._kernel.definition
 
+    def respelled(self) -> list[str]:
+        """Say which names of variables and parameters the theorems spell otherwise, if any are."""
+        names = dict.fromkeys(self.variables)
+        for function in self.functions.values():
+            names.update(function.get("parameters", {}))
+        pairs = [f"`{each}` is {typed(each)}" for each in names if typed(each) != each]
+        return [f"In what follows {', '.join(pairs)}.", ""] if pairs else []
+
     # -- theorems ----------------------------------------------------------------------------------
 
     def image(self, **state: Ends) -> Theorem:
@@ -115,17 +126,15 @@ class Map:
         near: states next to which they are looked for, instead of points at random in a box.
         `periodic_orbits` has all of them, for a formula.
         """
-        cycles = self._cycles(period, box, near)
-        return self._proved(cycles, f"no orbit of the least period {period} is found and proved")
+        return self._proved(self._cycles(period, box, near))
 
     def stable(self, longest: int = 8, box: Box | None = None) -> Theorem:
         """Prove the attracting periodic orbits, up to a period, that points at random come to."""
-        from proofs.methods.newton import attractors, settled
+        from proofs.methods.fates import attractors, followed
 
         sampled = self._sampled
-        cycles = attractors(sampled, settled(sampled, self.region(box)), longest)
-        reason = f"no attracting orbit of a period up to {longest} is found and proved"
-        return self._proved(cycles, reason)
+        points = followed(sampled, self.region(box)).points
+        return self._proved(attractors(sampled, points, longest), is_attracting=True)
 
     def horseshoe(self, box: Box | None = None, longest: int = 2) -> Theorem:
         """Prove a full shift on two symbols, of the map or an iterate; sets are found.
@@ -151,7 +160,7 @@ class Map:
 
     def periodic_orbits(self, period: int, box: Box) -> Theorem:
         """Prove which periodic orbits a formula has in a box, and that there are no others."""
-        from proofs.methods.newton import prove_all_orbits
+        from proofs.methods.periodic import prove_all_orbits
 
         file = self._derivation()
         sides = self.region(box)
@@ -194,12 +203,13 @@ class Map:
     def _moving(self, parameters: Mapping[str, Ends], count: int) -> list[Any]:
         from proofs.methods.branches import Moving
 
-        known = {name: 0 for each in self.functions.values() for name in each.get("parameters", {})}
-        if unknown := sorted({*parameters} - {*known}):
-            raise ValueError(f"{unknown[0]} is none of the parameters {', '.join(known)}")
-        if len(parameters) != count:
+        known = {key: 0 for each in self.functions.values() for key in each.get("parameters", {})}
+        sides = exact_sides(parameters)
+        if unknown := sorted({*sides} - {*known}):
+            raise ValueError(f"{typed(unknown[0])} is none of the parameters {listed(known)}")
+        if len(sides) != count or any(low == high for low, high in sides.values()):
             raise ValueError(f"ranges of {count} parameters are expected, as in g=('0.7', '0.8')")
-        return [Moving(each, ends_of(value)) for each, value in parameters.items()]
+        return [Moving(*each) for each in sides.items()]
 
     @property
     def _share(self) -> float:
@@ -227,26 +237,30 @@ class Map:
             return {}
         return {name: {**function, "end": {**end, "count": str(power * int(end["count"]))}}}
 
-    def _proved(self, cycles: Sequence[Any], otherwise: str) -> Theorem:
-        """Return the theorem about those of some orbits that are proved."""
+    def _proved(self, cycles: Sequence[Any], is_attracting: bool = False) -> Theorem:
+        """Return the theorem about those of some orbits that are proved, or proved attracting."""
         from proofs.methods.newton import prove_orbits
 
         file = self._derivation()
-        steps = prove_orbits(file, self.function, cycles)
-        if not steps:
-            raise Undecided(otherwise)
-        return theorem_of(file, steps)
+        theorem = theorem_of(file, prove_orbits(file, self.function, cycles))
+        if not is_attracting:
+            return theorem
+        kept = [each for each in file.steps if file.conclusion(each).stability == "attracting"]
+        if not kept:
+            raise Undecided(f"not that it is attracting: {theorem.conclusion.brief}")
+        return theorem_of(file, kept)
 
     def _cycles(
         self, period: int, box: Box | None, near: Sequence[Mapping[str, Exact]] = ()
     ) -> list[Any]:
         from proofs.methods.newton import as_points, cycles, seeds
+        from proofs.trusted.kernel.enclose import centre_of
 
         if not isinstance(period, int) or not 1 <= period <= 60:
             raise ValueError(f"a period is a whole number from 1 to 60, not {period!r}")
         sampled = self._sampled
         if near:
-            starts = as_points([[exact(state[each]) for each in self.variables] for state in near])
+            starts = as_points([centre_of(box_of(self.variables, state)) for state in near])
         else:
             starts = seeds(sampled, self.region(box), int(sampled.starts * period * self._share))
         return cycles(sampled, period, starts)
@@ -259,26 +273,23 @@ class Map:
 
     def seen(self) -> list[str]:
         """Say what floating point sees points at random come to; nothing of it is proved."""
-        from proofs.methods.newton import attractors, fates, settled
+        from proofs.methods.fates import fates
 
-        sampled = self._sampled
-        points = settled(sampled, self.region())
-        return fates(sampled, points, attractors(sampled, points, _LONGEST))
+        return fates(self._sampled, self.region(), _LONGEST)
 
     def region(self, box: Box | None = None) -> list[Range]:
         """Return a box where points are looked for: angles all around, others as given."""
-        sides = {**self.box, **(box or {})}
+        sides = exact_sides({**self.box, **(box or {})})
         if unknown := sorted({*sides} - {*self.variables}):
-            raise ValueError(f"{unknown[0]} is none of the variables {', '.join(self.variables)}")
+            raise ValueError(
+                f"{typed(unknown[0])} is none of the variables {listed(self.variables)}"
+            )
         periods = self._kernel.periods(_BITS)
         around = [
             (Fraction(0), periods[i].range[1]) if i in periods else ends_of(_SIDE)
             for i in range(len(self.variables))
         ]
-        return [
-            ends_of(sides[each]) if each in sides else side
-            for each, side in zip(self.variables, around, strict=True)
-        ]
+        return [sides.get(each, side) for each, side in zip(self.variables, around, strict=True)]
 
     def _image(self, file: Any, function: str, state: Mapping[str, Ends]) -> Theorem:
         from proofs.trusted.kernel.enclose import enclosed
@@ -302,30 +313,37 @@ def theorem_of(file: Any, steps: Sequence[str]) -> Theorem:
     return Theorem(tuple(map(file.conclusion, steps)), file.certificate(*steps))
 
 
-def _function(
-    state: Sequence[str],
-    values: Sequence[str],
-    parameters: Mapping[str, Ends],
-    periods: Mapping[str, str],
-) -> dict[str, Any]:
-    """Return a formula as a certificate has it."""
-    return {"variables": list(state), **optional(parameters, periods), "values": list(values)}
-
-
 def optional(parameters: Mapping[str, Ends], periods: Mapping[str, str]) -> dict[str, Any]:
     """Return the fields of a function for parameters and angles, where it has some."""
-    ranges = {each: texts(ends_of(ends)) for each, ends in parameters.items()}
-    angles = {each: canonical(period) for each, period in periods.items()}
+    ranges = {each: texts(ends) for each, ends in exact_sides(parameters).items()}
+    angles = {name(each): canonical(period) for each, period in periods.items()}
     fields = {"parameters": ranges, "periods": angles}
     return {field: value for field, value in fields.items() if value}
 
 
 def box_of(variables: Sequence[str], state: Mapping[str, Ends]) -> tuple[Range, ...]:
     """Return the sides of a box of states, in the order of the variables."""
-    if {*state} != {*variables}:
-        wanted = ", ".join(f"{each}=..." for each in variables)
+    sides = exact_sides(state)
+    if {*sides} != {*variables}:
+        wanted = ", ".join(f"{typed(each)}=..." for each in variables)
         raise ValueError(f"a value for each variable is expected: {wanted}")
-    return tuple(ends_of(state[each]) for each in variables)
+    return tuple(sides[each] for each in variables)
+
+
+def exact_sides(values: Mapping[str, Ends]) -> dict[str, Range]:
+    """Return both ends for each name as the checker has it; what is wrong is said with the name."""
+    sides: dict[str, Range] = {}
+    for each, ends in values.items():
+        try:
+            sides[name(each)] = ends_of(ends)
+        except (ValueError, TypeError) as error:
+            raise type(error)(f"{each}: {error}") from None
+    return sides
+
+
+def listed(names: Iterable[str]) -> str:
+    """Return names as they were typed."""
+    return ", ".join(map(typed, names))
 
 
 def ends_of(values: Ends) -> Range:

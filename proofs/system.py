@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from intervals import Undecided
-from proofs.map import Ends, Map, box_of, ends_of, optional, theorem_of
+from proofs.map import Ends, Map, box_of, exact_sides, optional, theorem_of
 from proofs.methods.grammar import GrammarError, canonical, name
 from proofs.methods.orders import FirstOrder, first_order
 from proofs.theorem import Theorem
@@ -38,6 +38,7 @@ _ADVICE = {  # what a reason means in the motion, what is not proved, and the ne
 }
 _MORE = {"title", "source", "units", "parameters", "periods", "region", "flow", "impact", "end"}
 _END = {"time", "section", "direction", "count"}
+_IMPACT = {"gap", "wall", "at", "next", "rest"}
 
 
 class System(Map):
@@ -123,7 +124,7 @@ class System(Map):
         first without one. The next impact is with any wall.
         """
         before, reasons = self._wall(wall), []
-        for after in range(len(self.walls)):
+        for after in self._file.next(before):
             timed = self._flights("Impact", self._file.map(before, after, timed=True))
             try:
                 return self._image(timed, "Impact", state)
@@ -142,7 +143,7 @@ class System(Map):
         the first, in the order of the file, with which a graze is found.
         """
         before, reason = self._wall(wall), Undecided("no graze is seen")
-        for after in range(len(self.walls)):
+        for after in self._file.next(before):
             try:
                 return self._outcome("graze", self._file.map(before, after), state)
             except Undecided as error:
@@ -204,15 +205,14 @@ class _Read:
                 raise GrammarError(f"the system has no {key!r}")
         if unknown := sorted({*file} - _HEAD - _MORE):
             raise GrammarError(f"unknown key {unknown[0]!r}; keys are {_listed(_HEAD | _MORE)}")
-        self.state = [name(each) for each in _list(file["variables"], "variables")]
+        typed = _list(file["variables"], "variables")
+        self.names = {str(each): name(str(each)) for each in typed}
+        self.state = [*self.names.values()]
         self.time = name(str(file["time"]))
-        own = file.get("parameters", {})
+        own = _table(file.get("parameters", {}), "parameters")
         if unknown := sorted({*given} - {*own}):
             raise GrammarError(f"the system has no parameter {unknown[0]!r}")
-        self.parameters = {name(each): value for each, value in {**own, **given}.items()}
-        for each, value in self.parameters.items():
-            if isinstance(value, float) or value in (None, ""):
-                raise GrammarError(f'the parameter {each} is no text: write {each} = "{value}"')
+        self.parameters: dict[str, Ends] = {**own, **given}
         if file.get("flow", "closed") not in ("closed", "validated"):
             raise GrammarError('flow is "validated", or "closed", which it is without this key')
         self.is_validated = file.get("flow") == "validated"
@@ -236,12 +236,12 @@ class _Read:
         timed: with the time as a last value.
         """
         impact = self._impact(after)
-        gaps = [impact, *(self._impact(k) for k in range(len(self.impacts)) if k != after)]
+        gaps = [impact, *(self._impact(k) for k in self.next(before) if k != after)]
         values = [self._formula(impact[each], f"{each} after the impact") for each in self.state]
         values += [self.time] if timed else []
         if before not in self._motions:
             self._motions[before] = [
-                self._motion(name(each), _table(motion, each), self._here(before))
+                self._motion(each, _table(motion, each), self._here(before))
                 for each, motion in _table(self.file["motion"], "motion").items()
             ]
         head = {
@@ -276,15 +276,28 @@ class _Read:
         return {"section": section, "direction": direction, "count": count}
 
     def _here(self, wall: int) -> dict[str, Ends]:
-        """Return the parameters, and what else has a value after an impact with a wall."""
+        """Return the parameters, and what else has a value after an impact with a wall.
+
+        Such a value is a number, or the name of a parameter.
+        """
         own = _table(self.impacts[wall].get("at", {}), "at")
-        return {**self.parameters, **{name(each): value for each, value in own.items()}}
+        known = {each: self.parameters.get(str(value), value) for each, value in own.items()}
+        return {**self.parameters, **known}
+
+    def next(self, wall: int) -> list[int]:
+        """Return the walls that may be hit after one: all, or those of its key `next`."""
+        names = _list(self.impacts[wall].get("next", [*self.walls]), "next")
+        if unknown := [each for each in names if each not in self.walls]:
+            raise GrammarError(f"next: no wall {unknown[0]!r}; there are {', '.join(self.walls)}")
+        return [self.walls.index(each) for each in names]
 
     def contact(self, wall: int) -> dict[str, str]:
         """Return what variables are, by formulas of the others, where the motion rests."""
         impact = self.impacts[wall]
         if "rest" not in impact:
-            raise GrammarError("[[impact]] has no 'rest': it says what the state is in contact")
+            raise GrammarError(
+                "[[impact]] has no 'rest', what the state is in contact: as rest = { v = \"0\" }"
+            )
         rest = {name(each): text for each, text in _table(impact["rest"], "rest").items()}
         if unknown := sorted({*rest} - {*self.state}):
             raise GrammarError(f"rest: {unknown[0]} is none of the variables")
@@ -292,13 +305,13 @@ class _Read:
 
     def _impact(self, wall: int) -> Mapping[str, Any]:
         impact, which = self.impacts[wall], "end" if "end" in self.file else "impact"
-        keys = {*self.state, *(_END if which == "end" else {"gap", "wall", "at", "rest"})}
+        keys = {*self.names, *(_END if which == "end" else _IMPACT)}
         if unknown := sorted({*impact} - keys):
             raise GrammarError(f"unknown key {unknown[0]!r} of {which}; keys are {_listed(keys)}")
         first = "gap" if which == "impact" else "time" if "time" in impact else "section"
-        if missing := [each for each in (first, *self.state) if each not in impact]:
+        if missing := [each for each in (first, *self.names) if each not in impact]:
             raise GrammarError(f"[[{which}]] has no {missing[0]!r}")
-        return impact
+        return {self.names.get(each, each): value for each, value in impact.items()}
 
     def _motion(
         self, which: str, motion: Mapping[str, Any], parameters: Mapping[str, Ends]
@@ -310,13 +323,15 @@ class _Read:
             if key not in motion:
                 raise GrammarError(f"[motion.{which}] has no {key!r}")
         start = [self._formula(each, "a start") for each in _list(motion["start"], "start")]
-        left, equals, right = str(motion["equation"]).partition("=")
-        if left.strip() != which + "'" * len(start) or not equals:
-            wanted = which + "'" * len(start)
+        left, _, right = str(motion["equation"]).partition("=")
+        wanted, count = which + "'" * len(start), len(start)
+        if left.strip() != wanted:
             raise GrammarError(
-                f"the equation of {which} begins {wanted} =, as {len(start)} numbers start it"
+                f"the equation of {which} begins {wanted} = ...: `start` has {count} "
+                f"value{'s'[: count > 1]}, and the derivative that comes next stands alone"
             )
         equation = self._formula(right, f"the equation of {which}")
+        which = name(which)
         if self.is_validated:
             return {"name": which, "equation": equation, "start": start}
         if "form" in motion:
@@ -331,7 +346,7 @@ class _Read:
         """Return a closed form that sympy finds, parameters with one value being put in."""
         from proofs.methods.linear import closed_form
 
-        sides = {each: ends_of(value) for each, value in parameters.items()}
+        sides = exact_sides(parameters)
         numbers = {each: low for each, (low, high) in sides.items() if low == high}
         try:
             return closed_form(which, self.time, equation, start, numbers)

@@ -30,6 +30,7 @@ from proofs.methods.bifurcation.classify import meaning
 from proofs.methods.bifurcation.closed import Closed, closed
 from proofs.methods.bifurcation.maps import Map
 from proofs.methods.bifurcation.normal_forms import KINDS, NormalForm
+from proofs.methods.grammar import name as spelled
 from proofs.methods.lemmas import Lemmas
 from proofs.shell.answers import Answer, add_answer, answering, bounds, give, lines
 from proofs.shell.cli import Parser, number, progress
@@ -40,11 +41,11 @@ from proofs.trusted.kernel.meter import Exhausted
 from proofs.trusted.verify import Rejected, check
 
 EPILOG = """\
-Formulas have + - * / ^ (whole powers), sqrt, exp, log, sin, cos and pi; decimals are exact;
-names are of small letters, digits and _, other than e. An argument @FILE is replaced by the lines
-of the file. Each candidate, a fixed point at which a multiplier is 1 or -1 or two have the product
-1, is classified: fold, transcritical, pitchfork, flip, neimark_sacker, resonance 1:k; what is
-degenerate, or none, is listed as dropped, with the reason. What decides is told where it stands,
+Formulas and names are those of `python -m proofs system`; e is none of the names. An argument
+@FILE is replaced by the lines of the file. Each candidate, a fixed point at which a multiplier is
+1 or -1 or two have the product 1, is classified: fold, transcritical, pitchfork, flip,
+neimark_sacker, resonance 1:k; what is degenerate, or none, is listed as dropped, with the reason.
+What decides is told where it stands,
 "critical" of the normal form, "speed" of the parameter, and what their signs mean; where it depends
 on other parameters, under which conditions; "root" and "root2" are parameters, too, where a closed
 form has roots of parameters. Other bifurcations than those in closed form may exist.
@@ -101,10 +102,10 @@ def _parser() -> Parser:
 def _numbers(text: str) -> dict[str, Fraction]:
     found = {}
     for each in text.split(","):
-        name, equals, value = each.partition("=")
-        if not equals or not name.strip().isidentifier() or name.strip() in found:
+        typed, equals, value = each.partition("=")
+        if not equals or not typed.strip().isidentifier() or spelled(typed.strip()) in found:
             raise ArgumentTypeError(f"NAME=NUMBER is expected, once a name, not {each[:30]!r}")
-        found[name.strip()] = number(value.strip())
+        found[spelled(typed.strip())] = number(value.strip())
     return found
 
 
@@ -123,7 +124,7 @@ def _names(of: Map, options: Namespace) -> tuple[str, ...]:
             raise ValueError(f"--near has numbers for {wanted}, --set for all other parameters")
         return (*of.state, *of.parameters)
     if options.solve:
-        names = tuple(name.strip() for name in options.solve.split(","))
+        names = tuple(spelled(each.strip()) for each in options.solve.split(","))
     else:
         names = (*of.state, *of.parameters[:1])
     if len(set(names)) != len(of.state) + 1 or not {*names} <= {*of.state, *of.parameters}:

@@ -39,27 +39,57 @@ _SECONDS, _MOST_EFFORT = Fraction(120), 6
 _MOST = 12  # theorems of an answer on the screen
 _ASKED = ("orbits:1", "orbits:2", "stable", "horseshoe")
 T = TypeVar("T")
-_SIDE = r"[a-z]\w*=[^:,]+:[^:,]+"
-_STATE = r"[a-z]\w*=[^:,]+(:[^:,]+)?"
-_ASK = re.compile(
-    rf"orbits:[1-9][0-9]?|stable|horseshoe|branches:{_SIDE}|(folds|flips):{_SIDE},{_SIDE}"
-    rf"|(impact|graze|rest):{_STATE}(,{_STATE})*"
-)
-_ASKABLE = (
-    "orbits:N, stable, horseshoe, impact:X=A,Y=B, graze:X=A,Y=B:C, rest:X=A:B, branches:P=A:B, "
-    "folds:P=A:B,Q=C:D and flips, as folds"
-)
-_STATEMENTS = {
-    "orbits": "periodic orbits of this least period exist",
-    "impact": "it is known what comes after these states: an impact, none ever, or no flight",
-    "graze": "a value of the variable with a range is followed by a graze",
-    "rest": "in contact with the wall no flight begins, at these states",
-    "branches": "branches of fixed points over this range of a parameter",
-    "folds": "curves of fixed points with the multiplier 1, over the second range",
-    "flips": "curves of fixed points with the multiplier -1, over the second range",
-    "stable": "an attracting periodic orbit exists",
-    "horseshoe": "the map, or its second iterate, has a full shift on two symbols",
+_NAME = r"[A-Za-z]\w*"
+_SIDE, _STATE = rf"{_NAME}=[^:,]+:[^:,]+", rf"{_NAME}=[^:,]+(:[^:,]+)?"
+
+
+class Question(NamedTuple):
+    """What can be asked: its statement, of the number N where it has one, and what follows it."""
+
+    statement: str
+    example: str
+    more: str  # a regular expression
+
+
+_QUESTIONS = {
+    "orbits": Question("periodic orbits of the least period N exist", "orbits:2", "[1-9][0-9]?"),
+    "all": Question(
+        "the periodic orbits in the region of a formula whose period divides N, and no others",
+        "all:2",
+        "[1-9][0-9]?",
+    ),
+    "stable": Question("an attracting periodic orbit exists", "stable", ""),
+    "horseshoe": Question(
+        "the map, or its second iterate, has a full shift on two symbols", "horseshoe", ""
+    ),
+    "image": Question("where the map takes these states", "image:X=A,Y=B:C", _STATE),
+    "impact": Question(
+        "it is known what comes after these states: an impact, none ever, or no flight",
+        "impact:X=A,Y=B:C",
+        _STATE,
+    ),
+    "graze": Question(
+        "a value of the variable with a range is followed by a graze", "graze:X=A,Y=B:C", _STATE
+    ),
+    "rest": Question(
+        "in contact with the wall no flight begins, at these states", "rest:X=A:B", _STATE
+    ),
+    "branches": Question(
+        "branches of fixed points over this range of a parameter", "branches:P=A:B", _SIDE
+    ),
+    "folds": Question(
+        "curves of fixed points with the multiplier 1, over the second range",
+        "folds:P=A:B,Q=C:D",
+        _SIDE,
+    ),
+    "flips": Question(
+        "curves of fixed points with the multiplier -1, over the second range",
+        "flips:P=A:B,Q=C:D",
+        _SIDE,
+    ),
 }
+_COUNTED = {"orbits": "orbits", "all": "periodic_orbits"}  # methods that take a period
+_ASKABLE = ", ".join(each.example for each in _QUESTIONS.values())
 EPILOG = """\
 exit status: 0 all that is asked is proved; 1 something is undecided; 2 no system, or no file
 
@@ -89,8 +119,8 @@ class Answer(NamedTuple):
     @property
     def statement(self) -> str:
         """The question as a sentence."""
-        kind, _, period = self.id.partition(":")
-        return _STATEMENTS[kind].replace("this least period", f"the least period {period}")
+        kind, _, number = self.id.partition(":")
+        return re.sub(r"\bN\b", number, _QUESTIONS[kind].statement)
 
     @property
     def file(self) -> str:
@@ -127,7 +157,7 @@ def main(arguments: list[str] | None = None) -> int:
         else:
             Path(options.json).write_text(text, "utf-8")
     if heard(options):
-        for line in _told(answers, seen or [late]):
+        for line in (*system.respelled(), *_told(answers, seen or [late])):
             say(line)
     return int(any(each.theorem is None for each in answers))
 
@@ -170,18 +200,26 @@ def add_subject(parser: Parser) -> None:
     parser.add_argument("--set", nargs="+", type=_pair, metavar="NAME=VALUE", help=help_text)
     help_text = "where orbits are looked for"
     parser.add_argument("--box", nargs="+", type=_pair, metavar="NAME=LOW:HIGH", help=help_text)
+    help_text = "the walls that are hit in turn, of a system with several (default: as in the file)"
+    parser.add_argument("--walls", nargs="+", metavar="WALL", help=help_text)
 
 
 def _pair(text: str) -> tuple[str, str]:
     name, equals, value = text.partition("=")
     if not (name and equals and value):
-        raise ArgumentTypeError(f"NAME=VALUE is expected, not {text[:40]!r}")
+        raise ArgumentTypeError(f"NAME=VALUE or NAME=LOW:HIGH is expected, not {text[:40]!r}")
     return name, value
 
 
 def _question(text: str) -> str:
-    if not _ASK.fullmatch(text):
+    kind, _, more = text.partition(":")
+    if kind == "orbits" and not more:
+        return "orbits:1"
+    if kind not in _QUESTIONS:
         raise ArgumentTypeError(f"{_ASKABLE} can be asked, not {text[:40]!r}")
+    question = _QUESTIONS[kind]
+    if not re.fullmatch(rf"{question.more}(,{question.more})*" if question.more else "", more):
+        raise ArgumentTypeError(f"{text[:40]!r} is no question: ask as in {question.example}")
     return text
 
 
@@ -206,6 +244,10 @@ def subject(options: Namespace, ranges: Mapping[str, Ends] = MappingProxyType({}
             made = System.example(options.example, **values)
         else:
             made = System.read(options.file, **values)
+        if options.walls:
+            if not isinstance(made, System):
+                raise ValueError("walls are those of a system, not of a map")
+            made = made.around(*options.walls)
         made.box |= {name: _side(value) for name, value in options.box or ()}
         made.region()
         if isinstance(made, System):
@@ -224,20 +266,18 @@ def _side(text: str) -> tuple[str, str]:
 
 def _answer(system: Map, asked: str) -> Answer:
     kind, _, more = asked.partition(":")
+    ask = getattr(system, _COUNTED.get(kind, kind), None)
+    if ask is None:
+        raise ValueError(f"{kind} is asked of systems, not of maps")
     try:
-        if kind in ("branches", "folds", "flips"):
-            sides = dict(map(_pair, more.split(",")))
-            theorem = getattr(system, kind)(**{name: _side(ends) for name, ends in sides.items()})
-        elif kind in ("impact", "graze", "rest"):
-            if not isinstance(system, System):
-                raise ValueError(f"{kind} is asked of systems, not of maps")
-            state = {name: _ends(value) for name, value in map(_pair, more.split(","))}
-            theorem = getattr(system, kind)(**state)
-        else:
-            theorem = system.orbits(int(more)) if more else getattr(system, kind)()
+        if kind == "all":
+            return Answer(asked, ask(int(more), system.box), "")
+        if kind in _COUNTED:
+            return Answer(asked, ask(int(more)), "")
+        values = {name: _ends(value) for name, value in map(_pair, more.split(","))} if more else {}
+        return Answer(asked, ask(**values), "")
     except Undecided as error:
         return Answer(asked, None, str(error))
-    return Answer(asked, theorem, "")
 
 
 def _told(answers: Sequence[Answer], seen: Sequence[str]) -> Iterator[str]:

@@ -2,8 +2,10 @@
 
 Numbers are decimals or integers and exact; ^ and ** are powers; y' and y'' are derivatives by the
 time; sin, cos, exp, log, sqrt, atan, and tan, sinh, cosh, tanh, abs in terms of these: abs(x) is
-sqrt(x^2), continuous, and with a derivative where x is proved not to be 0. Every failure is a
-GrammarError that says where, and what would be accepted.
+sqrt(x^2), continuous, and with a derivative where x is proved not to be 0. The checker's variables
+begin with a small letter, so that none is taken for a function: K is k_ there, Omega is omega_, and
+so is lambda lambda_, a word of Python. Every failure is a GrammarError that says where, and what
+would be accepted.
 """
 
 from __future__ import annotations
@@ -12,6 +14,7 @@ import ast
 import re
 from collections.abc import Iterator
 from fractions import Fraction
+from keyword import iskeyword
 
 from intervals import fraction
 from proofs.trusted.kernel.expression import FUNCTIONS
@@ -29,13 +32,16 @@ _DERIVED = {
     "cosh": "(exp({0}) + exp(-({0})))/2",
     "tanh": "1 - 2/(exp(2*({0})) + 1)",
 }
+_CIRCLE = "of a variable on a circle give the period: --period, or `periods`"
+_PIECES = "a map in pieces is no formula, but for abs: max(x, 0) is (x + abs(x))/2"
 _OTHERS = {
     "ln": "write log",
     "arctan": "write atan",
-    "mod": "give the period of the variable in `periods`",
+    **dict.fromkeys(("mod", "floor", "frac"), _CIRCLE),
+    **dict.fromkeys(("max", "min", "sign", "sgn", "heaviside"), _PIECES),
 }
 _KNOWN = (*FUNCTIONS, *_DERIVED)
-_NAME = re.compile(r"[a-z][a-z0-9_]{0,11}")
+_NAME = re.compile(r"[A-Za-z](?:[a-z0-9_]{0,9}[a-z0-9])?")
 
 
 class GrammarError(ValueError):
@@ -73,12 +79,27 @@ def canonical(text: str, time: str = "") -> str:
 
 
 def name(text: str) -> str:
-    """Return a variable's name; GrammarError where it is none."""
-    if not _NAME.fullmatch(text) or text in (*_KNOWN, *_OTHERS, "pi", "at"):
+    """Return a variable's name as the checker reads it; GrammarError where it is none.
+
+    Different names stay different, since none that is typed ends with _.
+    """
+    if not _NAME.fullmatch(text) or text.lower() in (*_KNOWN, *_OTHERS, "pi", "at"):
         raise GrammarError(
-            f"{text[:30]!r} is no name for a variable: small letters, digits and _, 12 at the most"
+            f"{text[:30]!r} is no name for a variable: a letter, then small letters, digits and _, "
+            "11 at the most, with no _ at the end, and no name of a function"
         )
-    return text
+    return _spelled(text)
+
+
+def _spelled(word: str) -> str:
+    small = word.lower()
+    return small + "_" * ((small != word) + iskeyword(small))
+
+
+def typed(name: str) -> str:
+    """Return what a name of the checker's was typed as."""
+    small = name.rstrip("_")
+    return small if _spelled(small) == name else small.capitalize()
 
 
 def names(text: str) -> list[str]:
@@ -97,23 +118,26 @@ def _python(text: str, time: str) -> Iterator[str]:
     while place < len(text):
         match = _TOKEN.match(text, place)
         if match is None:
-            raise GrammarError(f"{_at(text, place)}: this is in no formula")
+            hint = f": {_CIRCLE}" if text[place:].lstrip()[0] == "%" else ""
+            raise GrammarError(f"{_at(text, place)}: this is in no formula{hint}")
         number, word, primes, op = match.group("number", "name", "primes", "op")
         if before in ("number", "name", ")") and (number or word or op == "("):
-            raise GrammarError(f"{_at(text, place)}: write * for a product")
+            hint = _OTHERS.get(word or "", "write * for a product")
+            raise GrammarError(f"{_at(text, place)}: {hint}")
         if number:
             value = exact(number)
             yield str(value) if value.denominator == 1 else f"({value})"
-        elif word:
-            yield _derivative(word, len(primes), time) if primes else word
-        else:
+        elif not word:
             if op == "=":
                 raise GrammarError(f"{_at(text, place)}: a formula, no equation, is expected")
             yield "**" if op == "^" else op
         is_call = bool(word) and text[match.end() :].lstrip().startswith("(")
         if is_call and word not in _KNOWN:
-            hint = _OTHERS.get(word, f"write * for a product; functions are {', '.join(_KNOWN)}")
-            raise GrammarError(f"{_at(text, place)}: {hint}")
+            usual = f"write * for a product; functions are {', '.join(_KNOWN)}"
+            raise GrammarError(f"{_at(text, place)}: {_OTHERS.get(word, usual)}")
+        if word:
+            spelled = word if word in (*_KNOWN, "pi") else name(word)
+            yield _derivative(spelled, len(primes), time) if primes else spelled
         before = "" if is_call else "number" if number else "name" if word else op
         place = match.end()
     if not before:
@@ -139,7 +163,7 @@ def _rewritten(tree: ast.expr, text: str) -> ast.expr:
             self.generic_visit(node)
             if isinstance(node.func, ast.Name) and node.func.id in _DERIVED:
                 if len(node.args) != 1:
-                    raise GrammarError(f"{node.func.id} takes one number, in {_short(text)}")
+                    raise GrammarError(f"{node.func.id} takes one number")
                 return _parsed(_DERIVED[node.func.id].format(ast.unparse(node.args[0])))
             return node
 
@@ -159,10 +183,10 @@ def _power(node: ast.BinOp, text: str) -> ast.expr:
     """Return a power with an integer exponent other than 0, or with roots."""
     value = _number(node.right)
     if value is None:
-        raise GrammarError(f"an exponent is a number; write exp(b*log(a)), in {_short(text)}")
+        raise GrammarError("an exponent is a number; write exp(b*log(a))")
     base = ast.unparse(node.left)
     if value.denominator > 2:
-        raise GrammarError(f"an exponent is a multiple of 1/2, in {_short(text)}")
+        raise GrammarError("an exponent is a multiple of 1/2")
     if value == 0:
         return _parsed("1")
     whole = int(value - Fraction(1, 2)) if value.denominator == 2 else int(value)

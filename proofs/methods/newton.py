@@ -4,31 +4,26 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from contextlib import suppress
 from fractions import Fraction
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from intervals import Interval, Undecided
-from proofs.methods.cells import Region, function_of, invariant_cover
+from intervals import Undecided
 from proofs.methods.derivation import Derivation
-from proofs.methods.formulas import dot, inverse
-from proofs.methods.lemmas import middles
-from proofs.methods.periodic import Orbit, periodic_orbits
 from proofs.methods.sampling import Floats, Sampled, ranges_of
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.covers import Rows
-from proofs.trusted.kernel.enclose import Box, centre_of, enclosed, point_box
-from proofs.trusted.kernel.formulas import Formulas
+from proofs.trusted.kernel.enclose import Box, centre_of
 from proofs.trusted.kernel.periodic import Closing
 from proofs.trusted.kernel.zeros import Piece, krawczyk
 from proofs.trusted.numbers import Range
 
-_FOLLOWED, _SETTLING, _FAR, _CLOSE = 30, 150, 1e6, 1e-3  # points of an attractor
+_FAR = 1e6  # where points are lost
 _STEPS, _NEAR, _STILL = 12, 1e-9, 1e-13  # of Newton's method
-_BITS, _PLACE, _RADIUS = 160, Fraction(1, 10**26), Fraction(1, 10**22)  # of exact points
+_SAME = 1e-6  # the distance of points that are one
+_BITS = 160  # of boxes around points
 _RADII = ("1/1000000000", "1/100000000000", "1/10000000", "1/100000")  # of boxes around points
 _FIRST, _MORE, _INFLATIONS = Fraction(1, 10**6), 1.3, 12  # of boxes where parameters have ranges
 
@@ -86,29 +81,28 @@ def _solved(matrices: Floats, right: Floats) -> Floats:
 
 def _distinct(sampled: Sampled, period: int, starts: Floats) -> list[Cycle]:
     """Return each orbit once, from its first point in lexicographic order."""
-    found: list[Cycle] = []
-    seen: list[Floats] = []
+    result: list[Cycle] = []
+    seen: Floats = np.empty((0, len(starts)))
     for start in sampled.reduced(starts).T:
-        if any(distance(sampled, start, point) < 1e-6 for point in seen):
+        if (distance(sampled, start, seen) < _SAME).any():
             continue
-        points = [start]
-        while len(points) < period:
-            points.append(sampled.reduced(sampled(points[-1][:, None]))[:, 0])
-        if not np.isfinite(points).all() or any(
-            distance(sampled, points[0], points[k]) < 1e-6 for k in range(1, period)
-        ):
+        orbit = [start]
+        while len(orbit) < period:
+            orbit.append(sampled.reduced(sampled(orbit[-1][:, None]))[:, 0])
+        points = np.array(orbit)
+        if not np.isfinite(points).all() or (distance(sampled, start, points[1:]) < _SAME).any():
             continue
-        seen += points
+        seen = np.concatenate([seen, points])
         first = min(range(period), key=lambda k: tuple(np.round(points[k], 6)))
-        turned = np.array(points[first:] + points[:first])
-        found.append(Cycle(turned, along_orbit(sampled, turned)))
-    return sorted(found, key=lambda cycle: tuple(cycle.points[0]))
+        turned = np.roll(points, -first, axis=0)
+        result.append(Cycle(turned, along_orbit(sampled, turned)))
+    return sorted(result, key=lambda cycle: tuple(cycle.points[0]))
 
 
-def distance(sampled: Sampled, x: Floats, y: Floats) -> float:
-    """Return how far two points are apart, angles being taken modulo their periods."""
+def distance(sampled: Sampled, x: Floats, y: Floats) -> Any:
+    """Return how far points are apart, a row each; angles are taken modulo their periods."""
     gap = x - y - whole_periods(sampled, x - y)
-    return float(np.abs(gap).max() / (1 + np.abs(y).max()))
+    return np.abs(gap).max(axis=-1) / (1 + np.abs(y).max(axis=-1))
 
 
 def along_orbit(sampled: Sampled, points: Floats) -> Floats:
@@ -146,87 +140,20 @@ def _settled(sampled: Sampled, x: Floats, steps: int) -> Floats:
     return x
 
 
-def settled(sampled: Sampled, box: Sequence[Range]) -> Floats:
-    """Return where points at random in a box are after many steps, without those that are lost."""
-    return seeds(sampled, box, _FOLLOWED, _SETTLING)[:, _FOLLOWED:]
-
-
-def attractors(sampled: Sampled, x: Floats, longest: int) -> list[Cycle]:
-    """Return the attracting periodic orbits, up to a period, that settled points come to."""
-    found: list[Cycle] = []
-    after = x
-    for period in range(1, longest + 1):
-        after = sampled(after)
-        apart = after - x - whole_periods(sampled, (after - x).T).T
-        near = (np.abs(apart) < _CLOSE * (1 + np.abs(x))).all(axis=0)
-        found += [each for each in cycles(sampled, period, x[:, near]) if each.multipliers[-1] < 1]
-        x, after = x[:, ~near], after[:, ~near]
-    return found
-
-
-def fates(sampled: Sampled, x: Floats, cycles: Sequence[Cycle]) -> list[str]:
-    """Say what becomes of points at random: they come to attracting orbits, get lost, or go on.
-
-    x: those of them that are settled.
-    """
-    followed = f"of {_FOLLOWED} points at random in the region {x.shape[1]}"
-    ends = [f"{followed} are followed for {_SETTLING} steps"]
-    if lost := _FOLLOWED - x.shape[1]:
-        ends.append(
-            f"{lost} are lost before: they come to rest, perhaps by chatter, go far away, or have "
-            "no impact soon; for others give a region"
-        )
-    near = [
-        {k for k, each in enumerate(cycles) if _comes_to(sampled, point, each)} for point in x.T
-    ]
-    for k, cycle in enumerate(cycles):
-        count = sum(k in each for each in near)
-        place = ", ".join(f"{value:.6g}" for value in cycle.points[0])
-        ends.append(f"{count} come to an orbit of period {len(cycle.points)} through ({place})")
-    if others := sum(not each for each in near):
-        ends.append(f"{others} come to no orbit of a period up to 8")
-    return ends
-
-
-def _comes_to(sampled: Sampled, point: Floats, cycle: Cycle) -> bool:
-    return any(distance(sampled, point, each) < _CLOSE for each in cycle.points)
-
-
-def prove_all_orbits(file: Derivation, function: str, period: int, box: Sequence[Range]) -> str:
-    """Add a step `periodic-orbits`: all orbits of a formula in a box whose period divides one."""
-    formula = file.map(function)
-    if not isinstance(formula, Formulas) or formula.circles or formula.ranges:
-        raise Undecided("all orbits are found for formulas without angles and ranges alone")
-    sides = tuple(Interval(*side) for side in box)
-    cover = invariant_cover(function_of(formula), Region(sides))
-    orbits = [_orbit_witness(formula, each) for each in periodic_orbits(cover, period)]
-    witness = {"function": function, "period": str(period), "box": [texts(side) for side in box]}
-    return file.add("periodic-orbits", {**witness, "radius": str(_RADIUS), "orbits": orbits})
-
-
-def _orbit_witness(formula: Formulas, orbit: Orbit) -> dict[str, Any]:
-    """Return a point of an orbit to many digits, by Newton's method, as the rule reads it."""
-    point, matrix = [x.mid for x in orbit.points[0]], []
-    closing = Closing(formula, orbit.period, ())
-    for _ in range(_STEPS):
-        x = enclosed(point_box(point), _BITS)
-        slopes = tuple(middles(row) for row in closing.jacobian(x))
-        matrix = [[Fraction(f"{float(c):.10g}") for c in row] for row in inverse(slopes)]
-        missed = middles(closing.values(x))
-        last, moved = point, (x - dot(row, missed) for x, row in zip(point, matrix, strict=True))
-        point = [round(x / _PLACE) * _PLACE for x in moved]
-        if point == last:
-            break
-    entries = [texts(row) for row in matrix]
-    return {"point": texts(point), "period": str(orbit.period), "matrix": entries}
-
-
 def prove_orbits(file: Derivation, function: str, cycles: Sequence[Cycle]) -> list[str]:
-    """Add steps `periodic-orbit` about those orbits for which they are concluded."""
-    steps = []
+    """Add steps `periodic-orbit` about those orbits for which they are concluded.
+
+    Raises Undecided where there is none, with the last reason.
+    """
+    steps, reason = [], "none is seen"
     for cycle in cycles:
-        with suppress(Unproved):
+        try:
             steps.append(_prove_orbit(file, function, cycle))
+        except Unproved as error:
+            place = ", ".join(f"{value:.6g}" for value in cycle.points[0])
+            reason = f"of {len(cycles)} that are seen none, such as that through ({place}): {error}"
+    if not steps:
+        raise Undecided(reason)
     return steps
 
 

@@ -24,10 +24,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from intervals import IntervalArray, Undecided
-from intervals.systems import Function, jacobian
-from proofs.methods.cyclic import CyclicSystem, stacked
-from proofs.methods.periodic import Orbit
+from intervals import Undecided
+from proofs.methods.newton import Cycle
+from proofs.methods.sampling import Sampled
 from proofs.methods.symbolic import SymbolicLemmas
 from proofs.trusted.kernel.arithmetic import Unproved
 
@@ -61,8 +60,8 @@ class _Points(NamedTuple):
 
 
 def rectangles(
-    f: Function,
-    orbits: Sequence[Orbit],
+    sampled: Sampled,
+    cycles: Sequence[Cycle],
     *,
     angle: float,
     past: int,
@@ -74,7 +73,7 @@ def rectangles(
     An image exceeds what it crosses by `spare` of its size. Raises Undecided where the sides grow
     without end: for a larger angle or longer words they may not.
     """
-    points = _points(f, orbits, angle, past + future, past)
+    points = _points(sampled, cycles, angle, past + future, past)
     names, word = np.unique(points.words, return_inverse=True)
     if len(names) < 2:
         raise Undecided("no two words belong to cycles that keep such an angle")
@@ -90,7 +89,9 @@ def rectangles(
     np.minimum.at(high, word, -local)
     size = np.ptp(points.places, axis=0).max()
     least, most = low - _POINT * size, _POINT * size - high
-    low, high = _grown(_Arrows(f, centres, frames, *arrows.T), least, most, spare, _MOST * size)
+    low, high = _grown(
+        _Arrows(sampled, centres, frames, *arrows.T), least, most, spare, _MOST * size
+    )
     centres = centres + _times(frames, (low + high) / 2)
     matrices = frames * ((high - low) / 2)[:, np.newaxis]
     return Rectangles(centres, matrices, _disjoint(centres, matrices, arrows))
@@ -130,12 +131,14 @@ def lemma(file: SymbolicLemmas, function: str, sets: Rectangles, digits: int = 9
 # -- words -----------------------------------------------------------------------------------------
 
 
-def _points(f: Function, orbits: Sequence[Orbit], angle: float, length: int, past: int) -> _Points:
+def _points(
+    sampled: Sampled, cycles: Sequence[Cycle], angle: float, length: int, past: int
+) -> _Points:
     """Return the points of all cycles that keep the angle, with words of so many symbols."""
     parts = []
-    for _, group in groupby(orbits, lambda orbit: orbit.period):
-        boxes: IntervalArray = np.stack([orbit.boxes for orbit in group])  # type: ignore[assignment]
-        slopes = CyclicSystem(f, None, 2).derivatives(boxes).mid
+    for _, group in groupby(cycles, lambda cycle: len(cycle.points)):
+        orbits = np.stack([cycle.points for cycle in group])
+        slopes = sampled.expanded(orbits.reshape(-1, 2).T)[1].reshape(*orbits.shape, 2)
         back = _directions(np.linalg.inv(slopes)[:, ::-1])
         frames = np.stack([_directions(slopes), np.roll(back[:, ::-1], 1, axis=1)], -1)
         sines = np.linalg.det(frames)
@@ -143,7 +146,7 @@ def _points(f: Function, orbits: Sequence[Orbit], angle: float, length: int, pas
         symbols = (sines[kept] > 0).astype(np.int64)
         words = sum((np.roll(symbols, past - k, axis=1) << k for k in range(length)), 0 * symbols)
         after = np.roll(words, -1, axis=1)
-        places, frames = boxes.mid[kept].reshape(-1, 2), frames[kept].reshape(-1, 2, 2)
+        places, frames = orbits[kept].reshape(-1, 2), frames[kept].reshape(-1, 2, 2)
         parts.append(_Points(places, frames, words.ravel(), after.ravel()))
     return _Points(*(np.concatenate(column) for column in zip(*parts, strict=True)))
 
@@ -163,9 +166,9 @@ def _directions(slopes: Floats) -> Floats:
 
 
 class _Arrows(NamedTuple):
-    """f from the coordinates of the i-th set to those of the j-th, for each arrow."""
+    """A map from the coordinates of the i-th set to those of the j-th, for each arrow."""
 
-    f: Function
+    map: Sampled
     centres: Floats
     frames: Floats
     i: Indices
@@ -174,13 +177,12 @@ class _Arrows(NamedTuple):
     def image(self, q: Floats) -> tuple[Floats, Floats]:
         """Return about the images of points, (arrows, n, 2), and the slopes of u' by u there."""
         frames = self.frames[self.i][:, np.newaxis]
-        points = IntervalArray.from_floats(self.centres[self.i][:, np.newaxis] + _times(frames, q))
-        values, rows = jacobian(self.f, [points[..., k].reshape(-1) for k in (0, 1)])
+        points = self.centres[self.i][:, np.newaxis] + _times(frames, q)
+        values, slopes = self.map.expanded(points.reshape(-1, 2).T)
         inverse = np.linalg.inv(self.frames[self.j])[:, np.newaxis]
-        ends = stacked(values).mid.reshape(q.shape) - self.centres[self.j][:, np.newaxis]
-        along = np.stack([stacked(row).mid for row in rows], 1).reshape(*q.shape, 2)
-        slopes = inverse @ along @ frames
-        return _times(inverse, ends), slopes[..., 0, 0]
+        ends = values.reshape(q.shape) - self.centres[self.j][:, np.newaxis]
+        along = inverse @ slopes.reshape(*q.shape, 2) @ frames
+        return _times(inverse, ends), along[..., 0, 0]
 
     def preimage(self, u: Floats, s: Floats) -> Floats:
         """Return about the u, (arrows, n), from which f comes to the given u."""

@@ -116,8 +116,32 @@ class Sampled:
     @property
     def starts(self) -> int:
         """The number of points at random for a search: fewer of a flow, where each is dear."""
-        parts = self.map.maps if isinstance(self.map, Composition) else (self.map,)
-        return _FEW if any(isinstance(part, Flow) for part in parts) else _STARTS
+        return _FEW if any(isinstance(part, Flow) for part in self.parts) else _STARTS
+
+    @property
+    def parts(self) -> tuple[Map, ...]:
+        """The maps of which it is made, in their order."""
+        return self.map.maps if isinstance(self.map, Composition) else (self.map,)
+
+    def undefined(self, part: Map, x: Floats) -> str:
+        """Say why a point, a column, has no image under one of the parts."""
+        if isinstance(part, Formulas):
+            return "where the map is not defined"
+        if not isinstance(part, Flight):
+            return "where the motion goes far away, or is not seen to end"
+        gaps = self._function(part.formulas, part.formulas.roots[: len(part.gaps)])
+        times = np.concatenate([[_STEP / 1024], np.arange(_STEP, _LONGEST, _STEP)])
+        with np.errstate(all="ignore"):
+            passed = [np.broadcast_to(gap <= 0, times.shape) for gap in gaps(*x, times)]
+        if not np.any(passed):
+            return f"no impact is seen up to the time {_LONGEST:g}"
+        first = np.any(passed, axis=0).argmax()
+        gap = next(
+            str(wall) for wall, is_in in zip(part.walls, passed, strict=True) if is_in[first]
+        )
+        if not first:
+            return f"at once, as at rest or after chatter: {gap} is not > 0 right after the impact"
+        return f"at another wall than is next in their order: {gap} is 0 first"
 
     @cached_property
     def periods(self) -> Floats:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from proofs.methods.lemmas import Lemmas, Number, Sides, exact
-from proofs.methods.newton import prove_all_orbits
+from proofs.methods.periodic import prove_all_orbits
 from proofs.methods.shifts import add_cone, add_covers, add_entropy, add_h_set
 
 _MOST_BOXES = 10_000  # of a tree
@@ -42,5 +42,5 @@ class SymbolicLemmas(Lemmas):
         return add_entropy(self, graph, longest)
 
     def cone(self, graph: str, form: Sequence[Number]) -> str:
-        """Add a step `cone`, with one form for all h-sets, on the whole of each."""
-        return add_cone(self, graph, [tuple(Fraction(entry) for entry in form)], 1)
+        """Add a step `cone`, with one form for all h-sets."""
+        return add_cone(self, graph, [tuple(Fraction(entry) for entry in form)])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 
 import numpy as np
 
@@ -39,7 +40,8 @@ def _orbit(
 ) -> tuple[str, list[Floats]]:
     sampled = Sampled(file.map(subject.function))
     for cycle in _seen(sampled, subject, asked, near)[:_MOST]:
-        for step in prove_orbits(file, subject.function, [cycle]):
+        with suppress(Undecided):
+            (step,) = prove_orbits(file, subject.function, [cycle])
             if asked.proved_by(file.conclusion(step)):
                 return step, [cycle.points[0]]
     raise Undecided("no orbit is found that is proved all over the box")

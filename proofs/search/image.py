@@ -126,7 +126,7 @@ def _at_point(prover: Prover, phases: Range) -> Image:
 
     def at_precision(bits: int) -> Image:
         x = enclosed((phases,), bits + _ROOM)
-        time, slope = prover.map.impact(x).range, prover.map.jacobian(x)[0][0].range
+        time, slope = prover.impact_map.impact(x).range, prover.impact_map.jacobian(x)[0][0].range
         arrival = phase_after(phases[0], time, bits + _ROOM)
         return Image(time, arrival, slope, sticking=False, prove=prove)
 

@@ -65,7 +65,7 @@ def _full_shift(of: Parameters, left: Range, right: Range) -> ImpactMap:
     for domain, (_, found) in zip((left, right), steps, strict=True):
         around = Fraction(float_down(domain[0])), Fraction(float_up(domain[1]))
         impacts = prover.impacts(around)
-        time = prover.map.impact(enclosed((domain[:1] * 2,), prover.bits)).range
+        time = prover.impact_map.impact(enclosed((domain[:1] * 2,), prover.bits)).range
         whole = (Interval(*time) + domain[0] - Interval(*found.images[0])) / turn(53)
         count = round(whole.mid)
         if not (whole.contains(count) and whole.wid < 1):

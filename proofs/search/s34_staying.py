@@ -247,5 +247,5 @@ def _newton(prover: Prover, cells: Sequence[Range], accuracy: Fraction) -> Fract
 def _value(prover: Prover, phase: Fraction) -> tuple[Fraction, Fraction]:
     """Return about (f(phase), f'(phase))."""
     x = enclosed(((phase, phase),), prover.bits)
-    time = prover.map.impact(x).range
-    return phase_after(phase, time, prover.bits)[0], middle(prover.map.jacobian(x)[0][0])
+    time = prover.impact_map.impact(x).range
+    return phase_after(phase, time, prover.bits)[0], middle(prover.impact_map.jacobian(x)[0][0])

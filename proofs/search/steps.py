@@ -7,23 +7,21 @@ the checker's numbers. So neither mpmath nor numpy is needed.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass, field
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import cached_property, partial
 from typing import Any, TypeVar
 
+from proofs.methods.derivation import Derivation, concluded
 from proofs.methods.extremes import extremes
 from proofs.methods.moran import moran_root
 from proofs.motion.covering import cover_by
 from proofs.motion.system import System
 from proofs.motion.witness import FlightBox, Seen
-from proofs.search.evidence import FAILED, Proved, concluded, floats_first
+from proofs.search.evidence import Proved, Steps, floats_first
 from proofs.trusted.certificate import texts
 from proofs.trusted.flights import FirstImpact
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.differential import BITS, Differential
 from proofs.trusted.kernel.enclose import enclosed
@@ -38,15 +36,14 @@ from proofs.trusted.slopes import Avoids, comes_to
 _Made = TypeVar("_Made")
 
 
-@dataclass
-class Prover:
-    """Collects proof steps; each is made once and named after its rule."""
+class Prover(Derivation):
+    """The proof steps about the plastic map of one oscillator; each is named after its rule."""
 
-    system: System
-    digits: int
-    horizon: Fraction
-    steps: dict[str, dict[str, Any]] = field(default_factory=dict)
-    known: dict[str, Conclusion] = field(default_factory=dict)  # what they conclude
+    def __init__(
+        self, system: System, digits: int, horizon: Fraction, steps: Steps | None = None
+    ) -> None:
+        super().__init__({}, {} if steps is None else steps, Context(system.place))
+        self.system, self.digits, self.horizon = system, digits, horizon
 
     @property
     def at(self) -> Place:
@@ -59,7 +56,7 @@ class Prover:
         return max(BITS, self.digits * 10 // 3 + 36)
 
     @cached_property
-    def map(self) -> PlasticMap:
+    def impact_map(self) -> PlasticMap:
         """The checker's map f, with impacts up to the horizon."""
         return PlasticMap(self.at, self.horizon)
 
@@ -68,36 +65,10 @@ class Prover:
         """It, as witnesses name it."""
         return {"eta": texts(self.at.eta), "nu": texts(self.at.nu)}
 
-    @property
-    def context(self) -> Context:
-        """What a rule is told: the oscillator, and what is proved."""
-        return Context(self.at, {}, self.known)
-
-    @contextmanager
-    def undone(self) -> Iterator[None]:
-        """Take back the steps made inside if the proof fails there; the failure goes on."""
-        before = [(each, dict(each)) for each in (self.steps, self.known)]
-        try:
-            yield
-        except FAILED:
-            for each, then in before:
-                each.clear()
-                each.update(then)  # type: ignore[arg-type]
-            raise
-
-    def add(self, rule: str, witness: dict[str, Any], stem: str = "") -> str:
-        """Record a step and return its name, a number after the stem, or after the rule's name."""
-        number = 1 + sum(step["rule"] == rule for step in self.steps.values())
-        name = f"{stem or rule}-{number}"
-        self.steps[name] = {"rule": rule, "witness": witness}
-        return name
-
-    def derive(self, rule: str, witness: dict[str, Any], stem: str = "") -> tuple[str, Any]:
-        """Record a step, with what the checker's rule concludes from it, or raises."""
-        conclusion = concluded(rule, witness, self.context)
-        name = self.add(rule, witness, stem)
-        self.known[name] = conclusion
-        return name, conclusion
+    def derive(self, rule: str, witness: dict[str, Any]) -> tuple[str, Any]:
+        """Add a step; return its name, with what it concludes."""
+        name = self.add(rule, witness)
+        return name, self.known[name]
 
     def claimed(self, name: str) -> Proved:
         """Return the steps so far, that one claimed."""
@@ -133,10 +104,10 @@ class Prover:
         """Prove f C^1 on [points[0], points[-1]] and enclose f' there (rule slopes)."""
 
         def slope(x: Fraction) -> Range:
-            return self.map.jacobian(enclosed(((x, x),), BITS))[0][0].range
+            return self.impact_map.jacobian(enclosed(((x, x),), BITS))[0][0].range
 
         def bend(low: Fraction, high: Fraction) -> Range:
-            return self.map.bend(enclosed(((low, high),), BITS)).range
+            return self.impact_map.bend(enclosed(((low, high),), BITS)).range
 
         cuts = texts(extremes(slope, bend, points).points)
         witness = {"function": self.function, "points": cuts, "bits": str(self.bits)}
@@ -165,14 +136,20 @@ class Prover:
 
     def point(self, phase: Fraction) -> tuple[str, Differential]:
         """Enclose f and f' at one phase (rule differential)."""
-        (image,) = self.map.values(enclosed(((phase, phase),), BITS))
+        (image,) = self.impact_map.values(enclosed(((phase, phase),), BITS))
         witness = {
             "function": self.function,
             "box": [texts((phase, phase))],
             "turns": [str(image.range[0] // TURN)],
             "bits": str(self.bits),
         }
-        return self.derive("differential", witness, "point")
+        conclusion = concluded("differential", witness, self.context)
+        name = f"point-{1 + sum(name.startswith('point-') for name in self.steps)}"
+        self.steps[name], self.known[name] = (
+            {"rule": "differential", "witness": witness},
+            conclusion,
+        )
+        return name, conclusion
 
     def root(self, ratios: Range) -> tuple[str, MoranRoot]:
         """Bracket the root of r0^s + r1^s = 1 (rule moran-root)."""

@@ -73,7 +73,7 @@ def _at_point(view, phase, slope, image):
     return told
 
 
-def differential(view, rng):
+def at_phases(view, rng):
     """f on an interval of phases, or at one: f', and f less so many turns."""
     (phases,), (values,), ((slope,),), told = view.region, view.values, view.matrix, []
     for phase in points(phases, rng, 2):

@@ -47,7 +47,7 @@ def _faults(view, rng, region, image, matrix=None):
     if planar.is_of_a_file(view):
         return planar.faults(view, rng, region, image, matrix)
     if view.function.kind == "PlasticMap":
-        return plastic.differential(view, rng)
+        return plastic.at_phases(view, rng)
     told = []
     if view.box[0][0] <= 0 or view.box[1][0] * view.box[1][1] <= 0 or not view.box[2][0] >= 0:
         return ["the box leaves the model"]

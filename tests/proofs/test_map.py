@@ -15,6 +15,7 @@ from proofs import Map, System
 from proofs.commands.system import main
 from proofs.methods.grammar import GrammarError
 from proofs.trusted.kernel.enclose import enclosed, point_box
+from proofs.trusted.kernel.meter import DEFAULT
 from proofs.trusted.verify import Rejected, check
 
 HENON = Map("1 - 1.4*x^2 + y", "0.3*x")
@@ -25,9 +26,9 @@ def inside(box, *point):
     return all(low <= x <= high for (low, high), x in zip(box, point, strict=True))
 
 
-def accepted(theorem):
+def accepted(theorem, work=DEFAULT):
     """The checker, from the text alone, says what the theorem says."""
-    report = check(theorem.certificate)
+    report = check(theorem.certificate, work)
     assert report.sentences == tuple(each.sentence for each in theorem)
     return theorem
 
@@ -95,12 +96,15 @@ def test_angles():
         (lambda: Map("x", "y", "x"), "3 formulas for the variables x, y"),
         (lambda: Map("r*x", variables=["x"]), "r has no value"),
         (lambda: Map("2x"), r"write \* for a product"),
-        (lambda: Map("x", Y="1"), "'Y' is no name"),
+        (lambda: Map("x", Y="1"), "the parameter Y is in none of the formulas"),
+        (lambda: Map("x*y_", variables=["x"]), "'y_' is no name"),
+        (lambda: Map("R*x", R="3,9"), "R: not a number: '3,9'"),
         (lambda: Map("x^2", periods={"x": "2*pi"}), "respect the period of x"),
         (lambda: Map("x", periods={"y": "1"}), "period"),
         (lambda: Map("x", periods={"x": "-1"}), "a period is positive"),
         (lambda: HENON.image(x="1"), "a value for each variable"),
         (lambda: HENON.orbits(0), "whole number from 1"),
+        (lambda: HENON.orbits(1, near=[{"x": "1"}]), "a value for each variable"),
         (lambda: HENON.orbits(1, {"z": ("0", "1")}), "none of the variables"),
         (lambda: HENON.image(x=("1", "0"), y="0"), "reversed"),
     ],
@@ -109,6 +113,29 @@ def test_what_is_no_map_is_a_sentence(make, reason):
     with pytest.raises(ValueError, match=reason) as refused:
         make()
     assert "\n" not in str(refused.value) and "$" not in str(refused.value)
+
+
+def test_names_with_capital_letters_are_one_parameter_however_they_come():
+    one, two = Map("r*x*(1 - x)", r="3.2"), Map("R*x*(1 - x)", R="3.9").at(R="3.2")
+    assert one.stable()[0].box == two.stable()[0].box and two.variables == ("x",)
+    assert two.respelled()[0] == "In what follows `r_` is R." and not one.respelled()
+
+
+def test_an_orbit_that_is_not_proved_attracting_does_not_answer_for_one():
+    """Points settle near an orbit whose multipliers are on the circle, or as close as this."""
+    turning = Map("x + y", "y - x - y", variables=["x", "y"])  # of order 6
+    assert turning._proved(turning._cycles(1, None))
+    with pytest.raises(Undecided, match="not that it is attracting"):
+        turning._proved(turning._cycles(1, None), is_attracting=True)
+    nearly = Map("x*(1 - x^2)")
+    with pytest.raises(Undecided):
+        nearly.stable(box={"x": ("-0.5", "0.5")})
+
+
+def test_an_attracting_orbit_of_three_variables():
+    delayed = Map("a - y^2 - b*z", "x", "y", a="0.3", b="0.1")
+    sides = dict.fromkeys("xyz", ("-0.5", "0.5"))
+    assert [each.stability for each in accepted(delayed.stable(box=sides))] == ["attracting"]
 
 
 def test_floats_are_refused():
@@ -169,14 +196,16 @@ def test_an_orbit_of_the_billiard_whose_flights_last_half_a_period():
 
 @pytest.mark.long
 def test_the_horseshoe_of_roesslers_flow():
-    """CAPD proves that on two sets the second return has the entropy log 2, at least."""
+    """CAPD proves that on two sets the second return has the shift, by cones as well."""
     system = System.example("roessler")
     system.effort = 5
-    (entropy,) = accepted(system.horseshoe())
+    entropy, conjugacy = accepted(system.horseshoe(), 2 * DEFAULT)
     assert (entropy.growth, entropy.length) == (2, 1)
+    assert conjugacy.graph == entropy.graph and not conjugacy.forward
     assert "at the 2nd `t > 0` at which `x` rises through 0" in entropy.sentence
 
 
+@pytest.mark.slow
 def test_a_later_return_is_that_of_the_iterate():
     """The solution goes on from the section: P2 = P P, enclosed on ways of their own."""
     system = System.example("roessler")
@@ -249,12 +278,14 @@ def far_wall(*more):
     return System({**file, "motion": motion, "impact": impacts})
 
 
+@pytest.mark.slow
 def test_there_is_no_further_impact_where_damping_wins():
     (never,) = accepted(far_wall().impact(a="0.3", v=("-0.1", "-0.09")))
     assert never.kind == "NoImpact" and "at all `t` > 0" in never.sentence
     assert far_wall().impact(a="0.3", v="-1").conclusion.kind == "Image"
 
 
+@pytest.mark.slow
 def test_a_graze_is_between_an_impact_and_none():
     (graze,) = accepted(far_wall().graze(a="0.3", v=("-1", "-0.1")))
     (low, high), (start, end) = graze.box[1], graze.time
@@ -279,6 +310,57 @@ def test_orbits_with_two_walls():
     assert walls.walls == ("right", "left") and found.turns == (1,)
     with pytest.raises(ValueError, match="no wall 'top'"):
         walls.around("top")
+
+
+SIDES = """
+variables = ["s", "v"]
+time = "t"
+parameters = { w = "0.7", K = "25" }
+periods = { s = "2*pi/w" }
+motion.X = { equation = "X'' = -X'/10 - k*X + cos(w*(s + t))", start = ["0", "v"] }
+[[impact]]
+wall = "in"
+at = { k = "K" }
+next = ["out"]
+gap = "-X"
+s = "s + t"
+v = "X'"
+[[impact]]
+wall = "out"
+at = { k = "1" }
+next = ["in"]
+gap = "X"
+s = "s + t"
+v = "X'"
+"""
+
+
+@pytest.mark.slow
+def test_a_spring_that_is_stiffer_on_one_side(tmp_path):
+    """Both sides meet in X = 0, and each flight is ended by its own; followed by small steps."""
+    file = tmp_path / "mine.toml"
+    file.write_text(SIDES)
+    system = System.read(file, w="2")
+    (orbit,) = accepted(system.stable(longest=2, box={"v": ("0", "5")}))
+    s, v = (float(sum(side) / 2) for side in orbit.box)
+    state, now, step = np.array([0.0, v]), s, 1e-4
+
+    def rate(x, t):
+        return np.array([x[1], -x[1] / 10 - (25 if x[0] > 0 else 1) * x[0] + math.cos(2 * t)])
+
+    for _ in range(round(orbit.turns[0] * math.pi / step)):
+        middle = state + step / 2 * rate(state, now)
+        state, now = state + step * rate(middle, now + step / 2), now + step
+    assert abs(state[0]) < 1e-2 and abs(state[1] - v) < 1e-2
+    with pytest.raises(GrammarError, match="next: no wall 'up'"):
+        system.read(_rewritten(file, '["out"]', '["up"]'))
+    with pytest.raises(GrammarError, match="k: not a number: 'Q'"):
+        system.read(_rewritten(file, '"K" }', '"Q" }'))
+
+
+def _rewritten(file, old, new):
+    file.write_text(SIDES.replace(old, new, 1))
+    return file
 
 
 @pytest.mark.parametrize("name", System.examples())
@@ -307,7 +389,7 @@ impact = [{ gap = "y - sin(phi + t)", phi = "phi + t", v = "cos(phi + t)" }]
         ("-g", "g*", "the equation of y: not a formula"),
         ("y''", "y'", "begins y'' ="),
         ('"v"]', '"v"', "Unclosed array"),
-        ('"0.1"', "0.1", 'write g = "0.1"'),
+        ('"0.1"', "0.1", 'g: 0.1 is a float, and not that decimal: write it as "0.1"'),
         ("= -g", "= -g*y^2", "not linear"),
         ('"v"] }', '"v"], form = "sin(phi) + v*t + g*t^2/2" }', "not proved to solve"),
         ('"v"] }', '"v"], form = "cos(phi) + v*t - g*t^2/2" }', "not proved to start"),
@@ -315,6 +397,7 @@ impact = [{ gap = "y - sin(phi + t)", phi = "phi + t", v = "cos(phi + t)" }]
         ("{ gap =", '{ rest = { q = "1" }, gap =', "rest: q is none of the variables"),
         ("{ gap =", '{ rest = "v", gap =', "'rest' is a table"),
         (', v = "cos(phi + t)"', "", "no 'v'"),
+        ('"phi", "v"]', '"phi", "V"]', "unknown key 'v' of impact"),
         ("y - sin(phi + t)", "t*(y - y)", "first derivatives"),
     ],
 )
@@ -370,6 +453,45 @@ def test_what_comes_next_is_asked(capsys):
     assert main(["--example", "wall", "--ask", "impact:a=0.3,v=-1", "impact:a=0.3,v=1"]) == 0
     said = capsys.readouterr().out
     assert "its values are in" in said and "it moves into the wall" in said
+
+
+@pytest.mark.parametrize(
+    ("asked", "told"),
+    [
+        ("orbits:0", "'orbits:0' is no question: ask as in orbits:2"),
+        ("folds:a=1", "ask as in folds:P=A:B,Q=C:D"),
+        ("everything", "image:X=A,Y=B:C, impact"),
+        ("impact:x=1", "impact is asked of systems, not of maps"),
+    ],
+)
+def test_a_question_that_is_none(asked, told, capsys):
+    with pytest.raises(SystemExit, match="2"):
+        main(["--map", "x/2", "--ask", asked])
+    assert told in capsys.readouterr().err
+
+
+def test_all_orbits_and_images_are_asked_of_the_command(capsys):
+    asked = ["--ask", "all:3", "orbits", "image:x=0.3", "--box", "x=-1:2"]
+    assert main(["--map", "R*x*(1 - x)", "--set", "R=3.9", *asked]) == 0
+    said = capsys.readouterr().out
+    assert "exactly these: 2 of least period 1, 2 of least period 3." in said
+    assert said.startswith("In what follows `r_` is R.\n") and "0.819" in said
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["--map", "sqrt(x - 10)"], "30 end before: where the map is not defined"),
+        (["--map", "x^2 + 1"], "30 end before: beyond 1e+06"),
+        (["--map", "x + 0.3 - sin(x)/2"], "x may be an angle: give it the period 2*pi"),
+        (["--map", "x/2"], "of 30 points at random, x in [-3, 3], 30 are followed"),
+        (["--example", "wall", "--box", "v=-1:2"], "at once, as at rest or after chatter: -x is"),
+        (["--example", "two-walls"], "at another wall than is next in their order"),
+    ],
+)
+def test_what_becomes_of_points_is_said(arguments, told, capsys):
+    main([*arguments, "--ask", "orbits:1", "--effort", "1"])
+    assert told in capsys.readouterr().out
 
 
 @pytest.mark.slow

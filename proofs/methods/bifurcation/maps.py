@@ -7,13 +7,13 @@ a smooth function of the point, with the Jacobian J that G_x1 J + G_x = 0 determ
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 from proofs.methods import derive
+from proofs.methods.grammar import canonical
 from proofs.trusted.certificate import Malformed, Reader
 from proofs.trusted.kernel import trees
 from proofs.trusted.kernel.formulas import read_formulas
@@ -21,26 +21,12 @@ from proofs.trusted.kernel.head import read_function
 from proofs.trusted.kernel.solutions import implicit_derivative
 
 Rows = list[list[str]]  # a matrix of formulas
-_DECIMAL = re.compile(r"(?<![A-Za-z0-9_.])([0-9]*\.[0-9]+|[0-9]+\.)(?![0-9.])")
-
-
-def formula(text: str) -> str:
-    """Return what a person types as the checker reads it: decimals are exact, ^ is a power."""
-    from intervals import fraction
-
-    def exact(match: re.Match[str]) -> str:
-        return f"({fraction(match[1])})"
-
-    typed = _DECIMAL.sub(exact, "".join(text.split())).replace("^", "**")
-    try:
-        return str(trees.formula(typed))
-    except ValueError as error:
-        raise ValueError(f"{str(error).removeprefix('$: ')}, in {text[:60]!r}") from None
 
 
 def image_of(variable: str) -> str:
-    """Return the name of a variable's image."""
-    return f"{variable}1"
+    """Return the name of a variable's image: x1 of x, and x1_ of x_, which is X1 of X."""
+    small = variable.rstrip("_")
+    return f"{small}1{variable[len(small) :]}"
 
 
 @dataclass(frozen=True)
@@ -62,10 +48,12 @@ class Map:
             left, equals, right = (part.strip() for part in line.partition("="))
             if not (left and equals and right):
                 raise ValueError(f"not an equation: {line[:60]!r}")
-            sides = formula(left), formula(right)
+            sides = canonical(left), canonical(right)
             for side in reversed(sides) if sides[1].isidentifier() else sides:
                 names += read_formulas(Reader(side)).variables
-            equations.append(sides[0] if sides[1] == "0" else formula(f"{sides[0]}-({sides[1]})"))
+            equations.append(
+                sides[0] if sides[1] == "0" else str(trees.formula(f"{sides[0]} - ({sides[1]})"))
+            )
         try:  # with names that the checker takes for variables
             read_function("F", Reader({"variables": sorted({*names}), "values": equations}))
         except Malformed as error:
@@ -100,7 +88,7 @@ class Map:
 
     def resting(self, text: str) -> str:
         """Return a formula where the image is the point itself."""
-        return f"at({text}, {', '.join(f'{x}1={x}' for x in self.state)})"
+        return f"at({text}, {', '.join(f'{image_of(x)}={x}' for x in self.state)})"
 
     @cached_property
     def fixed(self) -> tuple[str, ...]:

@@ -19,6 +19,7 @@ from proofs.trusted.kernel.enclose import (
     box_text,
     enclosed,
     integer,
+    multiply,
     read_box,
     tried,
 )
@@ -27,6 +28,7 @@ from proofs.trusted.kernel.periodic import Closing, derivative
 from proofs.trusted.kernel.zeros import read_matrix, require_zero
 
 ATTRACTING, SADDLE, REPELLING = "attracting", "a saddle", "repelling"
+_SQUARINGS = 8  # of a matrix of three rows and more
 
 
 @dataclass(frozen=True)
@@ -34,7 +36,7 @@ class PeriodicOrbit(Conclusion):
     """A map has exactly one periodic orbit of a least period with a first point in a box.
 
     turns: the periods by which its angles have increased after it; stability: what its multipliers
-    are, where that is proved, for maps of one or two variables.
+    are, where that is proved; that they are those of a saddle or larger, for one or two variables.
     """
 
     function: Map
@@ -77,7 +79,8 @@ def periodic_orbit(context: Context, reader: Reader) -> PeriodicOrbit:
     z^2 - T z + D, are inside the unit circle (Jury). If (1 + D)^2 < T^2, it is a saddle: the
     polynomial has opposite signs at 1 and -1, so exactly one zero lies between them. If |D| > 1 and
     |T| < |1 + D|, both are outside (as 1/z for the case before). With one variable M is the
-    multiplier.
+    multiplier. With more than two the orbit is attracting if the absolute values in each row of a
+    power of M have a sum < 1: that is a norm of the power, so no eigenvalue of M reaches 1.
     """
     more = ("turns",) if reader.has("turns") else ()
     fields = reader.fields("function", "period", "box", "matrix", *more)
@@ -121,7 +124,7 @@ def _stability(matrix: Matrix) -> str | None:
         size = magnitude(matrix[0][0])
         return ATTRACTING if size.hi < unit else REPELLING if size.lo > unit else None
     if len(matrix) > 2:
-        return None
+        return ATTRACTING if _contracts(matrix, unit) else None
     (a, b), (c, d) = matrix
     trace, determinant = magnitude(a + d), a * d - b * c
     area, ends = magnitude(determinant), magnitude(determinant + 1)
@@ -130,6 +133,15 @@ def _stability(matrix: Matrix) -> str | None:
     if (trace - ends).lo > 0:
         return SADDLE
     return REPELLING if (ends - trace).lo > 0 and area.lo > unit else None
+
+
+def _contracts(matrix: Matrix, unit: int) -> bool:
+    """Whether a power of all matrices in an interval matrix has a norm < 1, by squaring."""
+    for _ in range(_SQUARINGS):
+        if all(sum(magnitude(x).hi for x in row) < unit for row in matrix):
+            return True
+        matrix = multiply(matrix, matrix)
+    return False
 
 
 def magnitude(x: Enclosure) -> Enclosure:

@@ -36,6 +36,7 @@ from proofs.trusted.numbers import (
 
 BITS = PRECISIONS[0]
 _MOST_POINTS = 1000
+_AT_POINT = 12  # decimals that are written
 
 
 @dataclass(frozen=True)
@@ -55,11 +56,14 @@ class Differential(Conclusion):
         """Return the statement."""
         map_, name = self.function, self.function.name
         place = box_text(self.box, map_.variables)
-        rows = ", ".join(f"({', '.join(map(between, row))})" for row in self.matrix)
+        places = _AT_POINT if all(low == high for low, high in self.box) else 6
+        values = " x ".join(between(each, places) for each in self.values)
+        rows = ", ".join(
+            f"({', '.join(between(each, places) for each in row)})" for row in self.matrix
+        )
         return (
             f"{given(map_)}`{name}` is continuously differentiable for {place}, with values in "
-            f"{' x '.join(map(between, self.values))}{less(map_, self.turns)}, and a derivative "
-            f"with rows in {rows}."
+            f"{values}{less(map_, self.turns)}, and a derivative with rows in {rows}."
         )
 
 

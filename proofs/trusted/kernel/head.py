@@ -174,9 +174,8 @@ def require_periods(
                 change = plus(change, period, -_multiple(change, period))
             if not forms.is_zero(change):
                 variable = formulas.variables[circle.place]
-                raise reader.fail(
-                    f"the formulas are not proved to respect the period of {variable}"
-                )
+                what = dict(zip(formulas.roots, formulas.trees, strict=False)).get(before, "a part")
+                raise reader.fail(f"{what} is not proved to respect the period of {variable}")
 
 
 def _multiple(value: Polynomial, period: Polynomial) -> int:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -92,7 +92,7 @@ def periodic_orbits(context: Context, reader: Reader) -> PeriodicOrbits:
     if not all(within(x.range, side) for each in points for x, side in zip(each, box, strict=True)):
         raise Unproved("a periodic point is not proved to be in the box")
     _require_apart(points)
-    _Search(function, box, period, orbits).require_complete()
+    Search(function, box, period, orbits).require_complete()
     counts = Counter(map(len, orbits))
     return PeriodicOrbits(function, box, period, tuple(sorted(counts.items())))
 
@@ -188,7 +188,7 @@ def _in_front(tube: Tube) -> None:
 
 
 @dataclass(frozen=True)
-class _Search:
+class Search:
     """The search for periodic orbits in a box that are not listed."""
 
     function: Map
@@ -223,6 +223,15 @@ class _Search:
 
     def require_complete(self) -> None:
         """Raise Unproved unless all orbits in the box are proved to be listed."""
+        for tube in self.open_tubes(_SMALLEST):
+            place = shown([x.range for x in tube[0]])
+            raise Unproved(f"not decided whether another periodic orbit has a point in {place}")
+
+    def open_tubes(self, smallest: float) -> Iterator[Tube]:
+        """Yield tubes that hold all orbits in the box that are not listed.
+
+        Each side is shorter than a part `smallest` of that of the box.
+        """
         sides = enclosed(self.box, _BITS)
         waiting: list[Tube] = [[list(sides) for _ in range(self.period)]]
         while waiting:
@@ -231,8 +240,17 @@ class _Search:
                 self._cut(tube)
             except Empty:
                 continue
-            if not self._is_known(tube):
-                waiting += self._halves(tube, sides)
+            if self._is_known(tube):
+                continue
+            share, i, k = max(
+                ((x.hi - x.lo) / (side.hi - side.lo), i, k)
+                for i, point in enumerate(tube)
+                for k, (x, side) in enumerate(zip(point, sides, strict=True))
+            )
+            if share < smallest:
+                yield tube
+            else:
+                waiting += _halves(tube, i, k)
 
     def _cut(self, tube: Tube) -> None:
         """Cut by the map, forth and back along the tube, as long as that takes much away."""
@@ -270,23 +288,15 @@ class _Search:
         except Unproved:
             return False
 
-    def _halves(self, tube: Tube, sides: Point) -> list[Tube]:
-        """Cut the side that is the largest part of that of the box."""
-        share, i, k = max(
-            ((x.hi - x.lo) / (side.hi - side.lo), i, k)
-            for i, point in enumerate(tube)
-            for k, (x, side) in enumerate(zip(point, sides, strict=True))
-        )
-        if share < _SMALLEST:
-            place = shown([x.range for x in tube[i]])
-            raise Unproved(f"not decided whether another periodic orbit has a point in {place}")
-        x = tube[i][k]
-        middle = x.lo + (x.hi - x.lo) * _CUT[0] // _CUT[1]
-        halves = []
-        for low, high in ((x.lo, middle), (middle, x.hi)):
-            halves.append([list(point) for point in tube])
-            halves[-1][i][k] = Enclosure(low, high, _BITS)
-        return halves
+
+def _halves(tube: Tube, i: int, k: int) -> list[Tube]:
+    """Cut a side of a tube."""
+    x, halves = tube[i][k], []
+    middle = x.lo + (x.hi - x.lo) * _CUT[0] // _CUT[1]
+    for low, high in ((x.lo, middle), (middle, x.hi)):
+        halves.append([list(point) for point in tube])
+        halves[-1][i][k] = Enclosure(low, high, _BITS)
+    return halves
 
 
 def _size(tube: Tube) -> int:

@@ -22,8 +22,9 @@ from proofs.methods import derive
 from proofs.methods.bifurcation.certify import enclosure
 from proofs.methods.bifurcation.classify import meaning
 from proofs.methods.bifurcation.closed import closed
-from proofs.methods.bifurcation.maps import Map, formula
+from proofs.methods.bifurcation.maps import Map
 from proofs.methods.bifurcation.normal_forms import NormalForm
+from proofs.methods.grammar import canonical
 from proofs.methods.lemmas import Lemmas
 from proofs.trusted.files import render
 from proofs.trusted.verify import check
@@ -59,7 +60,7 @@ def enclosed(kind, parameter, near, *lines, digits=15, **numbers):
 
 
 def same(expression, text):
-    return derive.simplest(expression - derive.read(formula(text))) == 0
+    return derive.simplest(expression - derive.read(canonical(text))) == 0
 
 
 @pytest.mark.slow
@@ -415,8 +416,9 @@ def test_the_coordinates_are_none_of_the_variables():
     assert (found[0]["r"], found[0]["critical"]) == (2, -2)
 
 
-def test_what_people_type():
-    assert formula("0.30*x^2-(1+y)") == "3/10*x**2 - (1 + y)"
+def test_names_with_capital_letters():
+    found = in_closed_form("flip", ("x_", "r_"), "X1 = R*X*(1 - X)")
+    assert [each["r_"] for each in found] == [-1, 3]
 
 
 def test_an_implicit_map_has_the_jacobian_of_the_explicit_one():

@@ -10,18 +10,15 @@ from functools import cache
 from itertools import pairwise
 
 import pytest
-from mpmath import matrix, mp, mpf
 
-from intervals import Interval, Undecided
-from proofs.methods.cells import Region, function_of, invariant_cover
+from intervals import Undecided
 from proofs.methods.lemmas import Lemmas
-from proofs.methods.periodic import periodic_orbits
+from proofs.methods.newton import cycles, seeds
 from proofs.methods.rectangles import lemma, rectangles
+from proofs.methods.sampling import Sampled
 from proofs.methods.symbolic import SymbolicLemmas
-from proofs.trusted.certificate import Reader
 from proofs.trusted.files import render
 from proofs.trusted.kernel import trees
-from proofs.trusted.kernel.head import read_function
 from proofs.trusted.verify import check
 from tests.proofs.trusted.kernel.lemma_examples import Written, henon
 
@@ -32,13 +29,7 @@ TABLE = """
 24740 37936
 """
 CYCLES = dict(enumerate(map(int, TABLE.split()), 1))  # by their least periods
-SAMPLE = 40  # orbits of a period that are looked at one by one
-
-
-@cache
-def cover():
-    formula = read_function("F", Reader({"variables": HENON[0], "values": HENON[1]}))
-    return invariant_cover(function_of(formula), Region.convex(CORNERS))
+STARTS = 500  # of Newton's method, times the period
 
 
 # -- the trapping region ---------------------------------------------------------------------------
@@ -86,91 +77,6 @@ def test_a_corner_that_is_moved_leaves(corner, sign):
         file.sign(first, -sign, **there)
 
 
-# -- cycles ----------------------------------------------------------------------------------------
-
-
-def test_the_fixed_point_and_the_cycle_of_period_two():
-    """x = (-7 + sqrt 609)/28; x + x' = 1/2, x x' = -13/28, trace 7.84 x x' + 0.6 = -3.04."""
-    (fixed,) = periodic_orbits(cover(), 1)
-    x, y = fixed.points[0]
-    assert (28 * x + 7).sqr().contains(609) and x > 0
-    assert (y - x * Fraction(3, 10)).contains(0)
-    assert (fixed.trace + x * Fraction(14, 5)).contains(0)
-    (cycle,) = [orbit for orbit in periodic_orbits(cover(), 2) if orbit.period == 2]
-    (low, _), (high, _) = cycle.points
-    assert (low + high).contains("1/2") and (low * high).contains("-13/28")
-    assert cycle.trace.contains("-3.04")
-
-
-@cache
-def cycles(period):
-    return periodic_orbits(cover(), period)
-
-
-def check_cycles(periods):
-    for n in periods:
-        orbits = cycles(n)
-        found = [orbit for orbit in orbits if orbit.period == n]
-        assert len(found) == CYCLES[n]
-        fixed = sum(d * CYCLES[d] for d in range(1, n + 1) if n % d == 0)
-        assert sum(orbit.period for orbit in orbits) == fixed
-        for orbit in found[:: 1 + len(found) // SAMPLE]:
-            check_orbit(orbit)
-
-
-def check_orbit(orbit):
-    """Newton at 40 digits from the midpoints ends inside; the determinant is (-0.3)^n."""
-    (a, b), (c, d) = orbit.derivative
-    assert (a * d - b * c).contains(Fraction(-3, 10) ** orbit.period)
-    with mp.workdps(40):
-        x, y = newton([mpf(x.mid.numerator) / x.mid.denominator for x in orbit.points[0]], orbit)
-        for sides in orbit.points:
-            for side, value in zip(sides, (x, y), strict=True):
-                assert as_mpf(side.inf) <= value <= as_mpf(side.sup)
-                assert side.wid < Fraction(1, 10**10)
-            x, y = 1 - mpf(7) / 5 * x**2 + y, mpf(3) / 10 * x
-
-
-def as_mpf(x):
-    return mpf(x.numerator) / x.denominator
-
-
-def newton(point, orbit):
-    for _ in range(3):
-        (x, y), slope = point, mp.eye(2)
-        for _ in range(orbit.period):
-            slope = matrix([[-mpf(14) / 5 * x, 1], [mpf(3) / 10, 0]]) * slope
-            x, y = 1 - mpf(7) / 5 * x**2 + y, mpf(3) / 10 * x
-        step = mp.lu_solve(slope - mp.eye(2), matrix([x - point[0], y - point[1]]))
-        point = [point[0] - step[0], point[1] - step[1]]
-    return point
-
-
-@pytest.mark.slow
-def test_all_cycles_up_to_period_six():
-    check_cycles(range(1, 7))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("period", [*range(7, 13), 18])
-def test_all_cycles_of_longer_periods(period):
-    check_cycles([period])
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("period", [22, 24, 26])
-def test_all_cycles_of_the_longest_periods(period):
-    check_cycles([period])
-
-
-def test_the_other_fixed_point_is_outside_the_quadrilateral():
-    """x = (-7 - sqrt 609)/28 = -1.131..., which the box around the quadrilateral contains."""
-    box = invariant_cover(cover().f, Region((Interval("-1.4", "1.4"), Interval("-0.5", "0.5"))))
-    other, _ = periodic_orbits(box, 1)
-    x = other.points[0][0]
-    assert x < 0 and (28 * x + 7).sqr().contains(609)
-
-
 # -- entropy ---------------------------------------------------------------------------------------
 
 
@@ -208,9 +114,15 @@ def test_a_graph_of_four_sets():
 
 def by_cycles(longest, **choice):
     """The covering relations of F among the sets around the cycles, and their entropy."""
-    orbits = [o for n in range(1, longest + 1) for o in cycles(n) if o.period == n]
     file = SymbolicLemmas({"F": HENON})
-    step = lemma(file, "F", rectangles(cover().f, orbits, **choice))
+    sampled = Sampled(file.map("F"))
+    box = [(Fraction("-1.33"), Fraction("1.32")), (Fraction("-0.5"), Fraction("0.42"))]
+    orbits = [
+        cycle
+        for period in range(1, longest + 1)
+        for cycle in cycles(sampled, period, seeds(sampled, box, STARTS * period))
+    ]
+    step = lemma(file, "F", rectangles(sampled, orbits, **choice))
     return render(file.document(step))
 
 

@@ -7,10 +7,10 @@ from math import log
 import numpy as np
 import pytest
 
-from intervals import Interval, Undecided
-from proofs.methods.cells import Region, function_of, invariant_cover
-from proofs.methods.periodic import periodic_orbits
+from intervals import Undecided
+from proofs.methods.newton import cycles, seeds
 from proofs.methods.rectangles import Rectangles, _disjoint, lemma, rectangles
+from proofs.methods.sampling import Sampled
 from proofs.methods.symbolic import SymbolicLemmas
 from proofs.trusted.files import render
 from proofs.trusted.verify import check
@@ -21,19 +21,19 @@ HORSESHOE = henon("5", "3/10")  # all bounded orbits have |x| < 0.596: conjugate
 
 @cache
 def horseshoe():
-    f = function_of(SymbolicLemmas({"F": HORSESHOE}).function("F"))
-    cover = invariant_cover(f, Region((Interval("-0.6", "0.6"), Interval("-0.2", "0.2"))), depth=6)
-    orbits = [o for n in range(1, 8) for o in periodic_orbits(cover, n) if o.period == n]
-    assert sum(orbit.period for orbit in orbits if 6 % orbit.period == 0) == 2**6
-    return f, orbits
+    sampled = Sampled(SymbolicLemmas({"F": HORSESHOE}).map("F"))
+    box = [(Fraction("-3/5"), Fraction("3/5")), (Fraction("-1/5"), Fraction("1/5"))]
+    orbits = [c for n in range(1, 8) for c in cycles(sampled, n, seeds(sampled, box, 1000 * n))]
+    assert sum(len(c.points) for c in orbits if 6 % len(c.points) == 0) == 2**6
+    return sampled, orbits
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("past", "future"), [(1, 1), (1, 2)])
 def test_the_full_shift(past, future):
     """One set for each word, two arrows from each; the entropy is log 2, and no more is proved."""
-    f, orbits = horseshoe()
-    sets = rectangles(f, orbits, angle=0.2, past=past, future=future)
+    sampled, orbits = horseshoe()
+    sets = rectangles(sampled, orbits, angle=0.2, past=past, future=future)
     assert len(sets.centres) == 2 ** (past + future)
     assert np.bincount(sets.arrows[:, 0]).tolist() == [2] * len(sets.centres)
     file = SymbolicLemmas({"F": HORSESHOE})
@@ -45,9 +45,9 @@ def test_the_full_shift(past, future):
 
 @pytest.mark.slow
 def test_each_point_is_in_the_set_of_its_word():
-    f, orbits = horseshoe()
-    sets = rectangles(f, orbits, angle=0.2, past=1, future=2)
-    points = np.concatenate([orbit.boxes.mid for orbit in orbits])
+    sampled, orbits = horseshoe()
+    sets = rectangles(sampled, orbits, angle=0.2, past=1, future=2)
+    points = np.concatenate([orbit.points for orbit in orbits])
     local = np.linalg.solve(sets.matrices, (points[:, np.newaxis] - sets.centres)[..., np.newaxis])
     inside = (np.abs(local[..., 0]) < 1).all(axis=2)
     assert (inside.sum(axis=1) == 1).all() and inside.any(axis=0).all()
@@ -56,8 +56,8 @@ def test_each_point_is_in_the_set_of_its_word():
 @pytest.mark.slow
 def test_relations_that_are_not_proved_are_left_out():
     """An arrow the wrong way: without it there is the horseshoe as before."""
-    f, orbits = horseshoe()
-    sets = rectangles(f, orbits, angle=0.2, past=1, future=1)
+    sampled, orbits = horseshoe()
+    sets = rectangles(sampled, orbits, angle=0.2, past=1, future=1)
     missing = {(i, j) for i in range(4) for j in range(4)} - set(map(tuple, sets.arrows.tolist()))
     more = Rectangles(*sets[:2], np.concatenate([sets.arrows, sorted(missing)]))
     files = [SymbolicLemmas({"F": HORSESHOE}) for _ in range(2)]
@@ -70,11 +70,11 @@ def test_relations_that_are_not_proved_are_left_out():
 
 @pytest.mark.slow
 def test_what_is_refused():
-    f, orbits = horseshoe()
+    sampled, orbits = horseshoe()
     with pytest.raises(Undecided, match="no two words"):
-        rectangles(f, orbits, angle=1, past=1, future=1)
+        rectangles(sampled, orbits, angle=1, past=1, future=1)
     with pytest.raises(Undecided, match="without end"):
-        rectangles(f, orbits, angle=0.2, past=1, future=1, spare=3)
+        rectangles(sampled, orbits, angle=0.2, past=1, future=1, spare=3)
 
 
 def test_sets_that_meet_go():

@@ -288,6 +288,14 @@ def test_avoids_refuses_a_target_that_is_entered(target):
     )
 
 
+def test_avoids_needs_flights_that_follow_one_another():
+    flights = gap_flights()
+    later = replace(flights["b"].motion, phases=(Fraction("1.146"), Fraction("1.15")))
+    flights["later"] = replace(flights["b"], motion=later)
+    witness = {"flights": ["a", "later"], "target": times("2", "6")}
+    refused("avoids", witness, flights, "do not continue")
+
+
 def test_avoids_counts_every_window():
     """A flight that may have its impact early or late must miss the target with both."""
     grazing = step(
@@ -363,15 +371,6 @@ def test_moran_root(reach):
     assert found.root[0] < S0 < found.root[1]
     s = mp.findroot(lambda s: mpf("0.1905") ** s + mpf("0.2381") ** s - 1, 0.45)
     assert abs(exact(s) - S0) < Fraction(1, 10**42)
-
-
-@pytest.mark.parametrize("reach", ["1e-1", "1e-15", "1e-25", "1e-40"])
-@pytest.mark.parametrize("side", [1, -1])
-def test_moran_root_beside_the_bracket(reach, side):
-    off = side * 2 * Fraction(reach)
-    refused(
-        "moran-root", root(S0 + off - Fraction(reach), S0 + off + Fraction(reach)), None, "signs"
-    )
 
 
 # -- signs that no precision decides ---------------------------------------------------------------

@@ -1,0 +1,112 @@
+"""What floating point sees of points at random under a map: where they settle, and how they end."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from proofs.methods.newton import Cycle, cycles, distance, seeds, whole_periods
+from proofs.methods.sampling import Floats, Sampled
+from proofs.trusted.numbers import Range
+
+_FOLLOWED, _SETTLING, _FAR, _CLOSE = 30, 150, 1e6, 1e-3  # points of an attractor
+_NEUTRAL = 1e-6  # so much less than 1 are multipliers of an attracting orbit
+_ANGLES = (
+    ("2*pi", 2 * np.pi),
+    ("1", 1.0),
+)  # periods that a variable may have without one being given
+
+
+class Followed(NamedTuple):
+    """Where points at random are after many steps, a column each, and how many ended, and why."""
+
+    points: Floats
+    ends: Counter[str]
+
+
+def followed(sampled: Sampled, box: Sequence[Range]) -> Followed:
+    """Follow points at random in a box."""
+    x, ends = seeds(sampled, box, _FOLLOWED, 0)[:, :_FOLLOWED], Counter[str]()
+    for _ in range(_SETTLING):
+        after = sampled.reduced(sampled(x))
+        goes_on = np.isfinite(after).all(axis=0) & (np.abs(after) < _FAR).all(axis=0)
+        ends.update(_end(sampled, point[:, None]) for point in x.T[~goes_on])
+        x = after[:, goes_on]
+    return Followed(x, ends)
+
+
+def _end(sampled: Sampled, x: Floats) -> str:
+    """Say why a point has no image, or goes far away."""
+    for part in sampled.parts:
+        before, x = x, Sampled(part, sampled.shares)(x)
+        if not np.isfinite(x).all():
+            return sampled.undefined(part, before)
+    return f"beyond {_FAR:g}"
+
+
+def attractors(sampled: Sampled, x: Floats, longest: int) -> list[Cycle]:
+    """Return the attracting periodic orbits, up to a period, that settled points come to."""
+    found: list[Cycle] = []
+    after = x
+    for period in range(1, longest + 1):
+        after = sampled(after)
+        apart = after - x - whole_periods(sampled, (after - x).T).T
+        near = (np.abs(apart) < _CLOSE * (1 + np.abs(x))).all(axis=0)
+        seen = cycles(sampled, period, x[:, near])
+        found += [each for each in seen if each.multipliers[-1] < 1 - _NEUTRAL]
+        x, after = x[:, ~near], after[:, ~near]
+    return found
+
+
+def fates(sampled: Sampled, box: Sequence[Range], longest: int) -> list[str]:
+    """Say what becomes of points at random in a box."""
+    points, ends = followed(sampled, box)
+    orbits = attractors(sampled, points, longest)
+    place = ", ".join(
+        f"{name} in [{float(low):.6g}, {float(high):.6g}]"
+        for name, (low, high) in zip(sampled.map.variables, box, strict=True)
+    )
+    lines = [
+        f"of {_FOLLOWED} points at random, {place}, {points.shape[1]} are followed for "
+        f"{_SETTLING} steps"
+    ]
+    lines += [f"{count} end before: {why}" for why, count in ends.most_common()]
+    near = [{k for k, each in enumerate(orbits) if _comes_to(sampled, x, each)} for x in points.T]
+    for k, cycle in enumerate(orbits):
+        if count := sum(k in each for each in near):
+            start = ", ".join(f"{value:.6g}" for value in cycle.points[0])
+            lines.append(
+                f"{count} come to an orbit of period {len(cycle.points)} through ({start})"
+            )
+    if others := sum(not each for each in near):
+        lines.append(f"{others} come to no orbit of a period up to {longest}")
+    return [*lines, *_angles(sampled, points)]
+
+
+def _comes_to(sampled: Sampled, point: Floats, cycle: Cycle) -> bool:
+    return bool((distance(sampled, point, cycle.points) < _CLOSE).any())
+
+
+def _angles(sampled: Sampled, x: Floats) -> list[str]:
+    """Say which variables without a period could have one."""
+    lines = []
+    for k, name in enumerate(sampled.map.variables):
+        if np.isfinite(sampled.periods[k]) or not x.size:
+            continue
+        for text, period in _ANGLES:
+            if _respects(sampled, x, k, period) and not _respects(sampled, x, k, period / np.e):
+                lines.append(f"{name} may be an angle: give it the period {text}")
+                break
+    return lines
+
+
+def _respects(sampled: Sampled, x: Floats, k: int, period: float) -> bool:
+    """Whether a variable may have a period: with it added images are the same, but for turns."""
+    turned = np.array(x)
+    turned[k] += period
+    change = (sampled(turned) - sampled(x)) / period
+    change[k] -= np.round(change[k])
+    return bool(np.abs(change).max() < _NEUTRAL)
