@@ -9,7 +9,7 @@ from typing import TypeVar
 from intervals.errors import DomainError, Undecided
 from proofs.trusted.flights import lifted, whole_turns
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.numbers import Range, agree
+from proofs.trusted.numbers import Range
 
 MOST_DIGITS = 1000  # that can be asked for
 _ATTEMPTS = 6
@@ -19,6 +19,11 @@ _Answer = TypeVar("_Answer")
 def bits_for(digits: int, attempt: int = 0) -> int:
     """Return the binary places for so many significant digits, at first or at a later attempt."""
     return digits * 10 // 3 + (20 << 2 * attempt)
+
+
+def agree(bounds: Range, digits: int) -> bool:
+    """Whether two bounds are equal to `digits` significant digits."""
+    return bounds[1] - bounds[0] <= min(abs(bounds[0]), abs(bounds[1])) / Fraction(10) ** digits
 
 
 def around(value: Fraction, bits: int) -> Range:

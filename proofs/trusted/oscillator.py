@@ -6,10 +6,10 @@ The gap and what is at an impact are those of `equations`, put in by the checker
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import ClassVar, NamedTuple
+from typing import ClassVar, NamedTuple, Self
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import (
@@ -29,7 +29,6 @@ from proofs.trusted.kernel.arithmetic import Dual, Enclosure, pi, rational
 from proofs.trusted.kernel.enclose import Box, Circle, Matrix, centre_of, point_box
 from proofs.trusted.kernel.firstzero import Gap
 from proofs.trusted.kernel.returns import ReturnMap
-from proofs.trusted.numbers import Range
 from proofs.trusted.parameters import Place
 
 LATEST = Fraction(10**6)
@@ -82,6 +81,10 @@ class Equations:
     def periods(self, bits: int) -> dict[int, Enclosure]:
         """Enclose that of the phase."""
         return {0: pi(bits) * 2}
+
+    def pinned(self) -> Self:
+        """Return them at the middle of the ranges."""
+        return replace(self, ranges=point_box(centre_of(self.ranges)))
 
     def derivative(self, root: int, place: int) -> int:
         """Return the number of a partial derivative."""
@@ -160,13 +163,9 @@ class Oscillator(PaperMap):
 
     def __init__(self, sides: Box, latest: Fraction = LATEST) -> None:
         """Take ranges of eta > 0, of nu, of one sign, and of epsilon from 0 to 1."""
-        roots = (0, _CLOSING, _PHASE, _VELOCITY)
-        equations = Equations("F", ("phi", "gamma"), roots, _sign(sides[1]), sides)
+        roots, side = (0, _CLOSING, _PHASE, _VELOCITY), 1 if sides[1][0] > 0 else -1
+        equations = Equations("F", ("phi", "gamma"), roots, side, sides)
         super().__init__(equations, 2, (_REBOUNDS, _IS_POSSIBLE), latest=latest)
-
-    def pinned(self) -> Oscillator:
-        """Return the map at the middle of the ranges."""
-        return Oscillator(point_box(centre_of(self.ranges)), self.latest)
 
     @property
     def definition(self) -> str:
@@ -202,10 +201,6 @@ class PlasticMap(PaperMap):
         equations = Equations("f", ("phi",), (0, _PHASE), at.side, at.sides[:2])
         super().__init__(equations, 1, (_LEAVES,), latest=latest)
 
-    def pinned(self) -> PlasticMap:
-        """Return the map at the middle of the ranges."""
-        return PlasticMap(Place(*point_box(centre_of(self.ranges))), self.latest)
-
     def jacobian(self, x: Sequence[Enclosure]) -> Matrix:
         """Enclose f' by `slope`."""
         impact = self._impact(x)
@@ -231,7 +226,3 @@ def read_oscillator(reader: Reader) -> PaperMap:
     more = ("epsilon",) if reader.has("epsilon") else ()
     place = Place(*(side.range() for side in reader.fields("eta", "nu", *more)))
     return Oscillator(place.sides) if more else PlasticMap(place)
-
-
-def _sign(nu: Range) -> int:
-    return 1 if nu[0] > 0 else -1

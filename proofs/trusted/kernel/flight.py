@@ -19,7 +19,7 @@ where all gaps are > 0 in between, and the others at the impact too.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
@@ -75,10 +75,6 @@ class Flight(ReturnMap):
     def walls(self) -> tuple[Tree, ...]:
         """The gaps, as they are written."""
         return self.formulas.trees[: len(self.gaps)]
-
-    def pinned(self) -> Flight:
-        """Return the map at the middle of the ranges."""
-        return replace(self, formulas=self.formulas.pinned())
 
     def bend(self, x: Sequence[Enclosure]) -> Enclosure:
         """Enclose the second derivative of the one value F by the one state.

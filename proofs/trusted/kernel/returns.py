@@ -50,6 +50,9 @@ class Timed(Protocol):
     @property
     def circles(self) -> tuple[Circle, ...]: ...
     def periods(self, bits: int) -> dict[int, Enclosure]: ...
+    def pinned(self) -> Self:
+        """Return them at the middle of the ranges."""
+
     def derivative(self, root: int, place: int) -> int:
         """Return the number of a partial derivative."""
 
@@ -124,9 +127,9 @@ class ReturnMap:
         """Those of the parameters."""
         return self.formulas.ranges
 
-    def pinned(self) -> Self:
+    def pinned(self) -> ReturnMap:
         """Return the map at the middle of the ranges."""
-        raise NotImplementedError
+        return ReturnMap(self.formulas.pinned(), self.state, self.gaps, latest=self.latest)
 
     def sensitivity(self, x: Sequence[Enclosure]) -> Matrix:
         """Enclose the derivative by the parameters."""

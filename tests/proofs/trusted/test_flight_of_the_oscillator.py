@@ -48,10 +48,12 @@ def flights(sides):
         yield oscillator.read_oscillator(Reader(wide)), given
 
 
+def overlap(one, two):
+    return one.lo <= two.hi and two.lo <= one.hi
+
+
 def agree(one, two):
-    return (
-        one.lo <= two.hi and two.lo <= one.hi and max(one.hi, two.hi) - min(one.lo, two.lo) < 2**40
-    )
+    return overlap(one, two) and max(one.hi, two.hi) - min(one.lo, two.lo) < 2**40
 
 
 @pytest.mark.parametrize("sides", SIDES)
@@ -63,17 +65,11 @@ def test_the_functions_and_their_derivatives_are_those_of_the_motion(sides):
             t = Enclosure.of(x := number(rng), x, 200)
             one, two = (Launches(x, states, enclosed(x.ranges, 200)) for x in (own, given))
             every = range(len(own.variables) + len(own.ranges))
-            for a, b in (
-                (own.gaps[0].orders[:3], given.gaps[0].orders[:3]),
-                (own.outcome, given.outcome),
-            ):
-                assert all(map(agree, one.on(a, t), two.on(b, t)))
-                for pair in zip(a[:1], b[:1], strict=True):
-                    ends = (
-                        m.on(f.slopes(x, every), t)
-                        for m, f, x in zip((one, two), (own, given), pair, strict=True)
-                    )
-                    assert all(map(agree, *ends))
+            roots = ((*f.gaps[0].orders[:3], *f.outcome) for f in (own, given))
+            for a, b in zip(*roots, strict=True):
+                assert agree(*one.on((a,), t), *two.on((b,), t))
+                slopes = one.on(own.slopes(a, every), t), two.on(given.slopes(b, every), t)
+                assert all(map(agree, *slopes))
             for a, b in zip(own.gaps, given.gaps, strict=True):
                 start = rational(Fraction(0), 200)
                 assert a.order == b.order
@@ -91,15 +87,12 @@ def test_the_maps_are_those_of_the_motion(sides):
         if sides["nu"][0][0] != "-":
             box = [(Fraction("1.5"), Fraction("1.501")), (Fraction(3),) * 2][: len(own.variables)]
         x = enclosed(tuple(box), 128)
-        assert all(
-            one.lo <= two.hi and two.lo <= one.hi
-            for one, two in zip(own.values(x), given.values(x), strict=True)
-        )
-        for one, two in zip(own.jacobian(x), given.jacobian(x), strict=True):
-            assert all(a.lo <= b.hi and b.lo <= a.hi for a, b in zip(one, two, strict=True))
+        assert all(map(overlap, own.values(x), given.values(x)))
+        for rows in zip(own.jacobian(x), given.jacobian(x), strict=True):
+            assert all(map(overlap, *rows))
         if len(own.variables) == 1:
             one, two = own.bend(x), given.bend(x)
-            assert one.lo <= two.hi and two.lo <= one.hi and one.hi - one.lo < 1 << 132
+            assert overlap(one, two) and one.hi - one.lo < 1 << 132
 
 
 @pytest.mark.parametrize("side", [1, -1])

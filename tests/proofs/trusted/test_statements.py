@@ -14,7 +14,6 @@ from proofs.trusted.numbers import (
     TURN,
     Phase,
     Phases,
-    agree,
     ceil_text,
     floor_text,
     show,
@@ -490,10 +489,6 @@ def test_show(value, text):
 def test_printed_bounds_are_rounded_outward(value, floor, ceiling):
     assert floor_text(Fraction(value)) == floor
     assert ceil_text(Fraction(value)) == ceiling
-
-
-def test_agree_counts_digits():
-    assert agree(span("100", "100.01"), 4) and not agree(span("100", "100.011"), 4)
 
 
 # -- parameters ------------------------------------------------------------------------------------

@@ -261,7 +261,7 @@ def prove_sticking_motion(
 ) -> StickingMotion | ReturningMotion | SticksOnce:
     """Rule `sticking-motion`: {separation, cells: [{slopes, domain}], beyond, landing}.
 
-    separation, landing: names of steps; slopes: a slope-range step; domain: two of its points;
+    separation, landing: names of steps; slopes: a step of that rule; domain: two of its points;
     beyond: null, or as a cell; landing: or null. Conclusion: `sticking_motion`; `sticks_once` where
     landing is a `stable-orbit` or a `never-impacts` step.
     """

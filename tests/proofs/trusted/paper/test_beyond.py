@@ -54,7 +54,7 @@ def around(value):
 
 
 def affine(low, high, first, last, at=HERE):
-    """What a slope-range step says of a line from (low, first) to (high, last)."""
+    """What a step of the rule slopes says of a line from (low, first) to (high, last)."""
     low, high, first, last = map(F, (low, high, first, last))
     slope = (last - first) / (high - low)
     bounds = slope - F(1, 1000), slope + F(1, 1000)

@@ -181,7 +181,7 @@ ACCEPTED = {  # what may be done to which field, in some places; all else is ref
     "itinerary": "slopes dropped swapped doubled_in_place added turned another; phase moved "
     "put_to_0 put_to_1",
     "dimension": "hull nudged; words turned put_to_0 put_to_1; rho nudged moved; arcs moved "
-    "put_alike; paths dropped nudged put_to_0; radii tighter narrowed looser aside collapsed "
+    "put_alike; paths dropped nudged moved put_to_0; radii tighter narrowed looser aside collapsed "
     "turned nudged moved put_beside; nodes moved put_alike; exponent nudged; growth nudged "
     "put_to_1; test dropped swapped doubled_in_place added nudged moved put_beside put_to_0 "
     "put_to_1; bits moved",

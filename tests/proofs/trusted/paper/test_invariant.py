@@ -82,7 +82,7 @@ BASE = horseshoe(sets(("1", "1.2"), ("1.3", "1.4")))
 
 
 def known(*pairs, at=PAPER.place):
-    """f at points, as a slope-range step has it."""
+    """f at points, as a step of the rule slopes has it."""
     images = tuple(Phase(Fraction(a), Fraction(b)) for _, (a, b) in pairs)
     nothing = (Fraction(0), Fraction(9))
     return SlopeRange(
