@@ -2,6 +2,7 @@
 
 import fcntl
 import hashlib
+import json
 import os
 import pickle
 from functools import cache, wraps
@@ -35,6 +36,18 @@ def once(function):
 
 
 REPORTS = Path(__file__).parents[1] / "reports"
+
+
+def committed():
+    """The texts of committed certificates by name: reports, systems, cells of atlases."""
+    found = [*REPORTS.glob("*.json"), *REPORTS.glob("systems/*/*.json")]
+    texts = {str(path.relative_to(REPORTS)): path.read_text("utf-8") for path in sorted(found)}
+    for path in sorted(REPORTS.glob("atlas/*/sample.jsonl")):
+        for line in map(json.loads, path.read_text("utf-8").splitlines()[1:]):
+            if line["certificate"]:
+                name = f"atlas/{path.parent.name}/cell-{line['cell'].replace('/', '-')}.json"
+                texts[name] = json.dumps(line["certificate"])
+    return {name: text for name, text in texts.items() if '"steps"' in text}
 
 
 @once

@@ -20,7 +20,7 @@ _PACKAGES = ("numpy", "mpmath", "gmpy2", "python-flint", "scipy", "matplotlib")
 _ABOUT = """\
 Times are on the clock: medians, with the least and the largest in brackets. What is
 compared was measured in turn, in one run, so that a busy machine slows all alike;
-ratios are of samples taken side by side. The raw samples are in `benchmark.json`."""
+ratios are of samples taken side by side. The command writes the raw samples as `benchmark.json`."""
 
 
 class Section(NamedTuple):
@@ -82,23 +82,23 @@ def machine_form(run: Run) -> str:
     return json.dumps({"schema": SCHEMA, **asked, **environment(), "rows": rows}, indent=1) + "\n"
 
 
-def markdown(run: Run, pictures: bool) -> str:
-    """Return the page, with links to pictures if there are any."""
+def markdown(run: Run) -> str:
+    """Return the page; it names its pictures, which are not kept with it."""
     machine = ", ".join(f"{name} {one}" for name, one in environment().items())
     about = f"{run.verdict}. Subject: {run.subject}. Mode: {run.mode}."
     lines = ["# Benchmark", "", about, "", _ABOUT, "", f"Measured on: {machine}."]
     lines += [f"\nMissed: {row.name}: {row.measured}." for row in run.asked if not row.reached]
     for section in run.sections:
         lines += ["", f"## {section.title}", "", section.about, "", section.table]
-        for diagram in section.diagrams if pictures else ():
-            lines += ["", f"![{diagram.title}](benchmark-{diagram.name}.svg)"]
+        names = [f"`benchmark-{diagram.name}.svg`" for diagram in section.diagrams]
+        lines += ["", f"Drawn by the command: {', '.join(names)}."] if names else []
     return "\n".join(lines) + "\n"
 
 
 def write(folder: Path, run: Run) -> bool:
     """Write pictures, samples and page, each file whole; return whether there are pictures.
 
-    All is drawn before anything is written, and the page comes last: what it links to is there.
+    All is drawn before anything is written, and the page comes last: what it names is there.
     Without matplotlib there are no pictures. OSError if nothing can be written.
     """
     diagrams = [one for section in run.sections for one in section.diagrams]
@@ -108,7 +108,7 @@ def write(folder: Path, run: Run) -> bool:
     except ImportError:
         files, drawn = {}, False
     files["benchmark.json"] = machine_form(run)
-    files["benchmark.md"] = markdown(run, drawn)
+    files["benchmark.md"] = markdown(run)
     with writing(folder) as put:
         for name, content in files.items():
             put(name, content)

@@ -25,7 +25,7 @@ from proofs.commands.system import add_subject, subject
 from proofs.map import ends_of
 from proofs.plane import summary
 from proofs.plane.head import executor, run
-from proofs.plane.store import LINES, Held, Store, file_of, key_of, opened
+from proofs.plane.store import LINES, SAMPLE, Held, Store, file_of, opened
 from proofs.report.build import INSTALL, missing
 from proofs.shell.cli import Parser, heard, number, progress, share, whole
 from proofs.shell.files import check_folder, check_targets, write_target, writing
@@ -46,10 +46,10 @@ Numbers are exact: 0.2121 is 2121/10000; 7/5 and 2e-3 are fine too. A depth of 5
 32nd of the region's sides at the smallest; a greater depth goes on with what is undecided.
 
 DIR has atlas.jsonl, which `proofs.check` proves again, line by line, and pandas and DuckDB read;
-atlas.json, areas and a digest; and, by the extra `report`, atlas.svg and atlas.png, with curves of
-single-impact orbits on top; atlas.html, where each cell says what is proved in it; and
-atlas.sqlite, with which it goes on. --executor dask:HOST:PORT sends the cells to a Dask scheduler,
-dask: to one of this machine (pip install 'impact-proofs[cluster]').
+sample.jsonl, the same of ten cells; atlas.json, areas and a digest; and, by the extra `report`,
+atlas.svg and atlas.png, with curves of single-impact orbits on top; atlas.html, where each cell
+says what is proved in it; and atlas.sqlite, with which it goes on. --executor dask:HOST:PORT sends
+the cells to a Dask scheduler, dask: to one of this machine (pip install 'impact-proofs[cluster]').
 
 exit status: 0 every cell is decided, 1 some are undecided, 2 bad input, or another run holds DIR
 
@@ -186,9 +186,7 @@ def _make(parser: Parser, options: Namespace, store: Store) -> int:
     with writing(options.out) as put:
         put(LINES, store.lines())
         put("atlas.json", json.dumps(made, indent=1) + "\n")
-        for path in options.out.glob("cell-*.json"):
-            if (cell := store.row(key_of(path.name))) and cell.certificate:
-                put(path.name, cell.text)
+        put(SAMPLE, store.sample())
     shown = LINES
     if packages := missing():
         say(f"{parser.prog}: no pictures and page, {', '.join(packages)} missing: {INSTALL}")
@@ -219,8 +217,7 @@ def _draw(folder: Path, store: Store, made: dict[str, Any]) -> str:
         image = picture.png(drawing)
         files["atlas.svg"] = svg_of(drawing, "atlas", made["holds"])
     if sum(made["cells"].values()) <= page.MOST:
-        beside = sorted(path.name for path in folder.glob("cell-*.json"))
-        files["atlas.html"] = page.page(store, shown, beside)
+        files["atlas.html"] = page.page(store, shown)
     with writing(folder) as put:
         put("atlas.png", image)
         for name, content in files.items():

@@ -54,7 +54,7 @@ examples:
   python -m proofs formal reports/horseshoe.json --floats --out coq
   python -m proofs horseshoe --nu -0.201 --out mine && python -m proofs formal mine/horseshoe.json
   python -m proofs formal reports/nonplastic.json --brief
-  python -m proofs formal tests/certificates/lemmas/accepted/logistic.json
+  python -m proofs formal reports/systems/logistic/horseshoe.json
 """
 
 

@@ -16,13 +16,13 @@ from markupsafe import Markup
 
 from proofs.plane import overlay, picture, summary
 from proofs.plane.picture import Shown
-from proofs.plane.store import LEAVES, Row, Store, key_of, quarters
+from proofs.plane.store import LEAVES, SAMPLE, Row, Store, quarters
 from proofs.report.atlases import about, areas
 from proofs.report.html import rendered
 from proofs.report.layout import percent
 from proofs.report.typeset import begun
 from proofs.trusted.atlas import NOT_YET, Region
-from proofs.trusted.numbers import show, show_range
+from proofs.trusted.numbers import show_range
 from proofs.trusted.subjects import Oscillators
 from proofs.trusted.verdicts import Verdict
 
@@ -175,8 +175,8 @@ class Stroke(NamedTuple):
     place: tuple[str, str]
 
 
-def page(store: Store, shown: Shown, certificates: Sequence[str]) -> str:
-    """Return the page. certificates: files of cells beside it."""
+def page(store: Store, shown: Shown) -> str:
+    """Return the page."""
     (made, found, verdicts, over), region = shown, store.region
     shares = made["share_of_area"]
     whole = data(region, store.cells(*LEAVES))
@@ -205,7 +205,7 @@ def page(store: Store, shown: Shown, certificates: Sequence[str]) -> str:
         meetings=[_in_map(region, place) for place in over.meetings],
         meet=picture.MEETINGS,
         periods=overlay.PERIODS,
-        certificates=[(name, _named(region, name)) for name in certificates],
+        sample=SAMPLE,
         side=SIDE,
         data=Markup(_json({**whole, "names": picture.labels(region)})),
         ends=Markup(_json({name: [*map(float, side)] for name, side in _sides(region)})),
@@ -218,12 +218,6 @@ def _json(value: Any) -> str:
 
 def _sides(region: Region) -> list[tuple[str, tuple[Any, Any]]]:
     return list(zip(("eta", "nu"), region.sides_of, strict=True))
-
-
-def _named(region: Region, name: str) -> str:
-    """Return the box of the cell that a certificate is about."""
-    lows = (show(low) for low, _ in region.sides(key_of(name)))
-    return ", ".join(f"{each} from {low}" for each, low in zip(region.names, lows, strict=True))
 
 
 def _paths(region: Region, keys: Sequence[str]) -> Iterator[tuple[str, str]]:

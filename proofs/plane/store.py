@@ -11,7 +11,7 @@ import json
 import os
 import sqlite3
 import zlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterator, Sequence
 from contextlib import closing, contextmanager, suppress
 from pathlib import Path
 from typing import NamedTuple
@@ -20,8 +20,9 @@ from proofs.trusted.atlas import DEEPEST, LEFT_OUT, NOT_YET, Region
 from proofs.trusted.certificate import Malformed, texts
 from proofs.trusted.verdicts import Verdict
 
-NAME, LINES = "atlas.sqlite", "atlas.jsonl"
+NAME, LINES, SAMPLE = "atlas.sqlite", "atlas.jsonl", "sample.jsonl"
 LEAVES = Verdict.VERIFIED, Verdict.REFUTED, Verdict.UNDECIDED
+_FEW = 10  # cells of a sample
 SPLIT = "SPLIT"
 
 
@@ -66,11 +67,6 @@ AND NOT EXISTS (SELECT 1 FROM cells AS there WHERE there.key = cells.key || digi
 def file_of(key: str) -> str:
     """Return the name of the file that has a cell's certificate."""
     return f"cell-{key.replace('/', '-')}.json"
-
-
-def key_of(file: str) -> str:
-    """Return the cell whose certificate a file of this name has."""
-    return file.removeprefix("cell-").removesuffix(".json").replace("-", "/")
 
 
 def quarters(key: str) -> list[str]:
@@ -125,12 +121,23 @@ class Store:
         """Return the sum over all rows, of `work` or `seconds`."""
         return float(self._rows.execute(f"SELECT total({column}) FROM cells").fetchone()[0])
 
-    def lines(self) -> Iterator[str]:
-        """Yield the atlas: region, cells and what is not looked at yet, strip."""
+    def sample(self) -> Iterator[str]:
+        """Yield an atlas of a few proved cells, spread over all: the others are not looked at."""
+        query = "SELECT key FROM cells WHERE certificate NOTNULL AND verdict != ? ORDER BY key"
+        proved = [key for (key,) in self._rows.execute(query, (SPLIT,))]
+        return self.lines(proved[:: max(len(proved) // _FEW, 1)][:_FEW])
+
+    def lines(self, only: Container[str] | None = None) -> Iterator[str]:
+        """Yield the atlas: region, cells and what is not looked at yet, strip.
+
+        only: the cells of which it says something; without it all.
+        """
         yield f"{self.region.text}\n"
         full = 4**DEEPEST  # smallest cells, of which a part consists
         ended = 0
         for row in self.cells(*LEAVES):
+            if only is not None and row.key not in only:
+                continue
             number, _, path = row.key.partition("/")
             size = full >> 2 * len(path)
             begins = int(number) * full + int(f"0{path}", 4) * size

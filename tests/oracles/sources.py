@@ -11,6 +11,7 @@ import re
 from dataclasses import replace
 from fractions import Fraction
 
+from tests import once as made_once
 from tests.once import REPORTS, once, report
 
 
@@ -34,9 +35,9 @@ def others():
     from tests.proofs.trusted.kernel.lemma_examples import EXAMPLES, text
 
     yield from ((f"lemma {name}", _parts(json.loads(text(name)))) for name in EXAMPLES)
-    for path in sorted([*REPORTS.glob("systems/*/*.json"), *REPORTS.glob("atlas/*/cell-*.json")]):
-        if not re.search("orbits-2-[^1]|folds|flips", path.name):  # some are like the first of them
-            yield str(path.relative_to(REPORTS)), _parts(json.loads(path.read_text()))
+    for name, made in made_once.committed().items():
+        if "/" in name and not re.search("orbits-2-[^1]|folds|flips", name):  # like the first
+            yield name, _parts(json.loads(made))
     yield from ((f"box: {name}", _parts(json.loads(made))) for name, made in about_boxes().items())
     bare = {"parameters": None, "functions": {}, "proofs": {}}
     yield "curves", {**bare, "steps": curves()}

@@ -22,6 +22,7 @@ from tests.proofs.formal.coq import (
     paper_case,
     stops_at,
 )
+from tests.proofs.trusted import corpus
 
 DECREASING = ["--eta", "47/500", "--nu", "77/100", "--left", "1.011", "1.0585"]
 DECREASING += ["--right", "1.3055", "1.3276"]
@@ -103,7 +104,7 @@ def test_thin_margins_take_more_pieces_not_more_digits_of_the_bound(tmp_path):
 
 
 def test_claims_that_need_no_sets_are_stated_alone():
-    path = ROOT / "tests" / "certificates" / "accepted" / "h11_alone.json"
+    path = corpus.path_of("accepted/h11_alone")
     made = case(plan(path.read_text()), path.name, floats=True)
     assert {theorem.name for theorem in made.theorems} == {
         "model",

@@ -9,9 +9,9 @@ from proofs.formal import coqc
 from proofs.formal.written import Case, Theorem
 from tests.proofs.formal.coq import PAPER, ROOT, needs_coqc, printed_by_coq
 from tests.proofs.shell.processes import guarded_here
+from tests.proofs.trusted.corpus import CORPUS, path_of
 
-CERTIFICATES = ROOT / "tests" / "certificates"
-LOGISTIC = CERTIFICATES / "lemmas" / "accepted" / "logistic.json"
+LOGISTIC = ROOT / "reports" / "systems" / "logistic" / "horseshoe.json"
 REALS = {
     "ClassicalDedekindReals.sig_not_dec",
     "ClassicalDedekindReals.sig_forall_dec",
@@ -192,7 +192,7 @@ def test_the_checker_s_arithmetic(capsys, tmp_path):
 @pytest.mark.parametrize("kind", ["rejected", "malformed"])
 def test_a_wrong_certificate_is_one_line_and_nothing_is_written(capsys, tmp_path, kind):
     out = tmp_path / "out"
-    paths = sorted((CERTIFICATES / kind).glob("*.json"))
+    paths = [path_of(name) for name in CORPUS if name.startswith(f"{kind}/")]
     assert len(paths) > 10
     for path in paths:
         with pytest.raises(SystemExit) as left:

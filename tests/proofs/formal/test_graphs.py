@@ -18,9 +18,9 @@ from proofs.methods.symbolic import SymbolicLemmas
 from proofs.trusted.files import render
 from proofs.trusted.kernel.trees import formula
 from proofs.trusted.verify import check
-from tests.proofs.formal.coq import ROOT, edited, needs_coqc
-
-LEMMAS = ROOT / "tests" / "certificates" / "lemmas" / "accepted"
+from tests.proofs.formal.coq import edited, needs_coqc
+from tests.proofs.trusted.corpus import path_of
+from tests.proofs.trusted.kernel.lemma_examples import text as example
 
 # a formula as people write it, as Coq's reals have it, and as a tree
 FORMULAS = [
@@ -158,13 +158,13 @@ def test_no_word_ends_a_comment_or_begins_another():
 
 
 def test_what_is_stated_for_a_certificate_of_the_checker():
-    made = written((LEMMAS / "golden_mean.json").read_text())
+    made = written(example("golden_mean"))
     said = coqc.statements(made.text, [theorem.name for theorem in made.theorems])
     assert "F1 (x : R) : R := (((39 / 10) * x) * ((1) - x))." in made.text
     assert "[(34 / 200, 88 / 200); (112 / 200, 191 / 200)]" in made.text
     assert said("graph1") == "Theorem graph1 : semiconjugate F1 cells1 arrows1."
     assert said("entropy1") == "Theorem entropy1 : entropy_at_least F1 cells1 live1 19 9349."
-    logistic = written((LEMMAS / "logistic.json").read_text())
+    logistic = written(example("logistic"))
     assert "graph1 : conjugate F1 cells1 arrows1 (209 / 100)" in logistic.text
 
 
@@ -176,7 +176,7 @@ def test_an_interval_without_an_arrow_onward_carries_no_entropy():
 
 
 def test_a_map_of_the_plane_is_a_line_and_status_1(capsys, tmp_path):
-    path = LEMMAS / "henon_horseshoe.json"
+    path = path_of("lemmas/accepted/henon_horseshoe")
     assert formal.main([str(path), "--out", str(tmp_path / "out")]) == 1
     error = capsys.readouterr().err
     assert "more than one variable" in error and error.count("\n") == 1
@@ -201,7 +201,7 @@ def asked(folder, name, text):
 @pytest.mark.slow
 def test_the_command_on_a_certificate_of_the_checker(capsys, tmp_path):
     path = tmp_path / "x *) Axiom injected : False. (* y.json"
-    path.write_text((LEMMAS / "logistic.json").read_text())
+    path.write_text(example("logistic"))
     assert formal.main([str(path), "--out", str(tmp_path / "out"), "--json", "-"]) == 0
     answer = json.loads(capsys.readouterr().out)
     assert [each["name"] for each in answer["theorems"]] == ["graph1", "entropy1"]
@@ -309,7 +309,7 @@ EACH_RUN = ("another arrow", "too steep", "more entropy as stated", "a negative 
     [name if name in EACH_RUN else pytest.param(name, marks=pytest.mark.long) for name in FALSE],
 )
 def test_what_is_false_is_refused(theory, tmp_path, name):
-    text = edited(written((LEMMAS / "logistic.json").read_text()).text, FALSE[name])
+    text = edited(written(example("logistic")).text, FALSE[name])
     for path in theory.glob("*.vo"):
         (tmp_path / path.name).symlink_to(path)
     with pytest.raises(coqc.Refused):

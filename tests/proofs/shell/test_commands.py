@@ -6,7 +6,6 @@ import subprocess
 import sys
 from dataclasses import replace
 from fractions import Fraction
-from importlib import import_module
 
 import pytest
 
@@ -18,6 +17,7 @@ from proofs.shell.groups import FILES, produce, wanted
 from proofs.trusted.manifest import command
 from proofs.trusted.parameters import PAPER
 from tests.proofs.shell.processes import AT, QUICK, ROOT, arguments_of
+from tests.proofs.trusted import corpus
 
 PACKAGES = {"benchmark", "formal", "report", "stress"}
 QUESTIONS = ["impact", "orbits", "single_impact"]
@@ -52,7 +52,7 @@ def test_a_command_is_named_first(capsys):
     said = capsys.readouterr().out
     assert impact.main([*AT, "--phi", "1.11"]) == 0
     assert capsys.readouterr().out == said
-    assert every.main(["check", str(ROOT / "tests/certificates/accepted/h16_alone.json")]) == 0
+    assert every.main(["check", str(corpus.path_of("accepted/h16_alone"))]) == 0
     with pytest.raises(SystemExit):
         every.main(["stress", "--help"])
     assert "python -m proofs stress" in capsys.readouterr().out
@@ -82,17 +82,6 @@ def test_every_command_has_a_version(name, capsys):
     except SystemExit as leave:
         assert leave.code == 0
     assert capsys.readouterr().out == f"impact-proofs {__version__}\n"
-
-
-def test_the_console_script_is_declared():
-    import tomllib
-
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
-    module, _, name = project["scripts"]["impact-proofs"].partition(":")
-    assert getattr(import_module(module), name) is every.script
-    code = "from proofs.__main__ import script; script()"
-    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, check=True)
-    assert b"horseshoe" in done.stdout
 
 
 # -- options ---------------------------------------------------------------------------------------
@@ -208,7 +197,7 @@ def piped(text):
 
 @pytest.mark.slow
 def test_the_checker_reads_what_is_piped_in():
-    text = (ROOT / "tests/certificates/accepted/h16_alone.json").read_bytes()
+    text = corpus.path_of("accepted/h16_alone").read_bytes()
     done = piped(text)
     assert done.returncode == 0 and done.stdout.startswith(b"standard input: accepted")
     for wrong in (b"", b"\xff", text[:100], b" " * 5_000_000):
@@ -227,9 +216,3 @@ def test_the_checker_says_what_a_ledger_is(tmp_path, capsys):
     (tmp_path / "horseshoe.json").unlink()
     assert check.main([str(tmp_path / "ledger.json")]) == 1
     assert "ledger.json: REJECTED" in capsys.readouterr().err
-
-
-def test_who_profiles_a_command_sees_it_leave():
-    command = [sys.executable, "-m", "cProfile", "-m", "proofs.horseshoe", "--version"]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, check=True, text=True)
-    assert __version__ in done.stdout and "function calls" in done.stdout

@@ -7,9 +7,9 @@ import pytest
 from proofs import check, horseshoe
 from proofs.shell.trust import trusted_for
 from proofs.trusted.kernel.meter import DEFAULT
+from tests.proofs.trusted.corpus import path_of
 
 REPORTS = Path(__file__).parents[3] / "reports"
-CERTIFICATES = Path(__file__).parents[2] / "certificates"
 
 
 def files(path):
@@ -28,13 +28,13 @@ def test_a_claim_rests_on_what_its_steps_call():
 
 @pytest.mark.slow
 def test_own_maps_rest_on_the_kernel_alone():
-    for rests in files(CERTIFICATES / "lemmas" / "accepted" / "ball.json").values():
+    for rests in files(path_of("lemmas/accepted/ball")).values():
         assert "kernel/flight.py" in rests
         assert not any(x.startswith("paper/s") or x == "equations.py" for x in rests)
 
 
 def test_lines_are_counted_and_a_list_is_refused(tmp_path, capsys):
-    assert check.main([str(CERTIFICATES / "accepted" / "h11_alone.json"), "--trust"]) == 0
+    assert check.main([str(path_of("accepted/h11_alone")), "--trust"]) == 0
     said = capsys.readouterr().out
     assert said.startswith("H11: to believe this, ") and said.count("\n") == 1
     assert horseshoe.main(["--only", "H16", "--quiet", "--out", str(tmp_path)]) == 0

@@ -1,10 +1,12 @@
-"""The files of tests/certificates, made from the table of their README.
+"""Certificates that are accepted, rejected or malformed, from the table of tests/certificates.
 
-From the root, `python -m tests.proofs.trusted.corpus` writes them.
+From the root, `python -m tests.proofs.trusted.corpus DIR` writes them all, for another checker.
 """
 
 import copy
 import json
+import os
+import sys
 from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
@@ -14,9 +16,9 @@ from proofs.trusted.certificate import SCHEMA
 from proofs.trusted.files import parameters_to_json, render
 from proofs.trusted.paper import find
 from proofs.trusted.parameters import Parameters
+from tests.once import FOLDER as OF_THIS_RUN
 from tests.proofs.trusted.edits import Document, lie
 from tests.proofs.trusted.kernel.lemma_examples import EXAMPLES, text
-from tests.proofs.trusted.renewing import fresh
 
 VERDICTS = {  # of the accepted certificate, at the paper's numbers
     "H1": "VERIFIED",
@@ -76,12 +78,23 @@ def only(*wanted: str) -> Callable[[Document], None]:
 
 
 def path_of(name: str) -> Path:
-    return FOLDER / f"{name}.json"
+    """A file of the table, which is written once in a run of the tests."""
+    path = Path(os.environ[OF_THIS_RUN]) / f"corpus/{name}.json"
+    if not path.exists():
+        _write(path, CORPUS[name].make())
+    return path
+
+
+def _write(path: Path, text: str) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    part = path.with_suffix(f".{os.getpid()}")
+    part.write_text(text, encoding="utf-8")
+    part.replace(path)
 
 
 def accepted() -> Document:
     """Return the committed certificate that the others are made from."""
-    document: Document = json.loads(path_of("accepted/horseshoe").read_text(encoding="utf-8"))
+    document: Document = json.loads((FOLDER / "horseshoe.json").read_text(encoding="utf-8"))
     return document
 
 
@@ -212,13 +225,6 @@ TEXTS: dict[str, Callable[[str], str]] = {
 CORPUS = entries()
 
 
-def write() -> None:
-    """Write all files, from a fresh certificate of the paper's claims."""
-    path_of("accepted/horseshoe").write_text(render(fresh()), encoding="utf-8")
-    for name, entry in CORPUS.items():
-        path_of(name).parent.mkdir(parents=True, exist_ok=True)
-        path_of(name).write_text(entry.make(), encoding="utf-8")
-
-
 if __name__ == "__main__":
-    write()
+    for every, made in CORPUS.items():
+        _write(Path(sys.argv[1]) / f"{every}.json", made.make())

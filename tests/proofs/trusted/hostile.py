@@ -19,6 +19,7 @@ from typing import NamedTuple
 from proofs.trusted.atlas import Region
 from proofs.trusted.certificate import LEDGER, MANIFEST, MAX_BYTES
 from proofs.trusted.paper import GROUPS
+from tests.once import committed
 from tests.proofs.trusted.edits import at, put, walk
 from tests.proofs.trusted.kernel.hostile import HOSTILE, source_of
 from tests.proofs.trusted.kernel.lemma_examples import EXAMPLES, text
@@ -34,11 +35,7 @@ MOST = 9_900  # entries of a list
 @cache
 def sources():
     """Texts of certificates that are accepted, by name."""
-    kinds = "*.json", "atlas/*/cell-*.json", "systems/*/*.json"
-    paths = [path for kind in kinds for path in ROOT.glob(f"reports/{kind}")]
-    found = {str(path.relative_to(ROOT)): path.read_text() for path in sorted(paths)}
-    found |= {f"lemma {name}": text(name) for name in EXAMPLES}
-    return {name: held for name, held in found.items() if '"steps"' in held}
+    return committed() | {f"lemma {name}": text(name) for name in EXAMPLES}
 
 
 def compact(document):

@@ -9,8 +9,6 @@ import json
 import re
 import sys
 import typing
-from functools import cache
-from pathlib import Path
 
 import pytest
 
@@ -21,12 +19,13 @@ from proofs.trusted.kernel.formulas import Formulas
 from proofs.trusted.kernel.maps import Composition, Map
 from proofs.trusted.rules import RULES
 from proofs.trusted.verify import premises
-from tests.once import report
+from tests.once import committed
 from tests.oracles.sources import classes
 from tests.proofs.trusted.edits import at, walk
+from tests.proofs.trusted.kernel.lemma_examples import EXAMPLES
+from tests.proofs.trusted.kernel.lemma_examples import text as lemma
 from tests.proofs.trusted.paper.test_edits import REFUSED, SMALLER, again, shortest, source
 
-ROOT = Path(__file__).parents[3]
 NAME = r"[A-Za-z][A-Za-z0-9_]{0,11}|_[0-9]+"
 OPERATION = r"[-+*/^]|negative|number|variable|pi|sqrt|exp|log|sin|cos"
 WORDS = {  # the fields that are texts, and which: None for those that only the program writes
@@ -108,17 +107,9 @@ def words(value, where="", outer=()):
 
 # -- phrases in files ------------------------------------------------------------------------------
 
-FILES = [
-    *sorted((ROOT / "reports").glob("*.json")),
-    *sorted((ROOT / "tests/certificates/lemmas/accepted").glob("*.json")),
-]
-
-
-@cache
-def read(path):
-    document = json.loads(path.read_text(encoding="utf-8"))
-    known = report(path.stem).context if path.parent.name == "reports" else None
-    return document, known or premises(render(document))
+FILES = {name: text for name, text in committed().items() if "/" not in name} | {
+    name: lemma(name) for name in EXAMPLES
+}
 
 
 def told(found):
@@ -163,13 +154,11 @@ def renamed(value, names):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
-def test_the_names_of_steps_are_in_no_sentence(path):
-    document = json.loads(path.read_text(encoding="utf-8"))
-    if "steps" not in document or len(render(document)) > 100_000:
-        pytest.skip("no certificate, or a long one")
+@pytest.mark.parametrize("file", [name for name, held in FILES.items() if len(held) < 100_000])
+def test_the_names_of_steps_are_in_no_sentence(file):
+    document = json.loads(FILES[file])
     names = {name: f"false-{k}" for k, name in enumerate(document["steps"])}
-    before = read(path)[1].known
+    before = premises(FILES[file]).known
     after = premises(render(renamed(document, names))).known
     for old, new in names.items():
         one, two = before[old], after[new]

@@ -28,10 +28,12 @@ from proofs.trusted.parameters import PAPER, Parameters, Place
 from proofs.trusted.rules import RULES
 from proofs.trusted.verify import derive, premises
 from tests.effort import EFFORT
-from tests.once import REPORTS, once, report
+from tests.once import committed, once, report
 from tests.oracles.judge import oracle
 from tests.proofs.trusted import renewing
 from tests.proofs.trusted.edits import at, edited, put, walk
+from tests.proofs.trusted.kernel.lemma_examples import EXAMPLES
+from tests.proofs.trusted.kernel.lemma_examples import text as lemma
 from tests.proofs.trusted.mutations import field, inside, is_number
 
 TEN_PIECES = replace(PAPER, eta=Fraction("0.21"))  # of the circle: few, so that all is soon derived
@@ -93,15 +95,15 @@ def derived(parameters, make):
 def shortest():
     """For each rule the shortest step of the committed files, of reports before lemmas."""
     steps = {}
-    lemmas = REPORTS.parent / "tests/certificates/lemmas/accepted"
-    cells = REPORTS.glob("atlas/*/cell-*.json")
-    for path in [*REPORTS.glob("*.json"), *cells, *lemmas.glob("*.json")]:
-        for name, step in json.loads(path.read_text()).get("steps", {}).items():
-            place = path.parent == lemmas, len(json.dumps(step)), path, name
+    texts = {x: text for x, text in committed().items() if not x.startswith("systems/")}
+    for file, text in (texts | {name: lemma(name) for name in EXAMPLES}).items():
+        for name, step in json.loads(text)["steps"].items():
+            place = file in EXAMPLES, len(json.dumps(step)), file, name
             steps.setdefault(step["rule"], []).append(place)
     return {rule: min(each)[2:] for rule, each in steps.items()}
 
 
+LENGTHY = "dimension", "grazing-curve"
 SMALLER = dict.fromkeys(("branch", "lands", "absorption"), (PAPER, coarse))
 SMALLER |= dict.fromkeys(
     ("pieces", "itinerary-graph", "expansion", "cycles", "grazing"), (TEN_PIECES, few_pieces)
@@ -117,9 +119,9 @@ def source(rule):
     if rule in SMALLER:
         steps, context = SMALLER[rule][1](), derived(*SMALLER[rule])
         return steps, context, next(x for x, step in steps.items() if step["rule"] == rule)
-    path, name = shortest()[rule]
-    text = path.read_text()
-    context = report(path.stem).context if path.parent == REPORTS else premises(text)
+    file, name = shortest()[rule]
+    text = lemma(file) if file in EXAMPLES else committed()[file]
+    context = premises(text) if file in EXAMPLES or "/" in file else report(file[:-5]).context
     return json.loads(text)["steps"], context, name
 
 
@@ -256,4 +258,4 @@ def verify(rule, most):
 
 @pytest.mark.parametrize("rule", OWN)
 def test_an_edited_witness_is_refused_or_true(rule):
-    verify(rule, 1 if EFFORT.quick else 2)
+    verify(rule, 1 if EFFORT.quick or rule in LENGTHY else 2)
