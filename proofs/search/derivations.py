@@ -17,7 +17,8 @@ from intervals import Interval, Undecided, decimal_bounds
 from proofs.methods.derivation import concluded
 from proofs.methods.formulas import Tree, values
 from proofs.methods.lemmas import bounds_of, solution_witness, witness_of
-from proofs.search.evidence import Evidence, Tell
+from proofs.search.evidence import Evidence
+from proofs.search.request import Request
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel import trees
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -33,7 +34,6 @@ from proofs.trusted.paper.formulas import (
     Lemma,
     Unknowns,
 )
-from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Row
 
 SPARE_BITS = 40
@@ -116,20 +116,13 @@ class Steps:
 
 
 def prove_rows(
-    rows: Sequence[Row],
-    of: Parameters,
-    claims: Sequence[str],
-    *,
-    digits: int = 30,
-    solvers: Solvers = MappingProxyType({}),
-    tell: Tell = lambda stage: None,
+    request: Request, rows: Sequence[Row], solvers: Solvers = MappingProxyType({})
 ) -> Evidence:
     """Prove what the claims asked for follow from, each lemma once, whatever the parameters."""
-    del of
-    steps, evidence = Steps(digits, solvers), Evidence()
+    steps, evidence = Steps(request.digits, solvers), Evidence()
     for row in rows:
-        if row.id in claims:
-            tell(f"formulas of {row.id}")
+        if request.asks(row.id):
+            request.tell(f"formulas of {row.id}")
             proved = [steps.prove(each) for each in row.needs]
             evidence.proofs[row.id] = [each for each in proved if each is not None]
     evidence.steps = steps.steps
