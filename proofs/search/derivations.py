@@ -15,8 +15,8 @@ from typing import Any
 
 from intervals import Interval, Undecided, decimal_bounds
 from proofs.methods.derivation import concluded
-from proofs.methods.formulas import Tree, values
-from proofs.methods.lemmas import bounds_of, solution_witness, witness_of
+from proofs.methods.formulas import values
+from proofs.methods.lemmas import solution_witness, witness_of
 from proofs.search.evidence import Evidence
 from proofs.search.request import Request
 from proofs.trusted.certificate import texts
@@ -91,17 +91,12 @@ class Steps:
         self._add(wanted, found, "formula-solution", solution_witness(found))
 
     def _value(self, asked: Asked) -> None:
-        tree: Tree = None
-        if all(low == high for _, (low, high) in asked.box):
-            point = {variable.name: low for variable, (low, _) in asked.box}
-            bounds = enclose(str(asked.function), self.digits, **point)
-        else:
-            box = {variable.name: side for variable, side in asked.box}
-            bounds, tree = bounds_of(str(asked.function), box, asked.signs[0])
+        point = {variable.name: low for variable, (low, _) in asked.box}
+        bounds = enclose(str(asked.function), self.digits, **point)
         witness = {
             "function": str(asked.function),
             "box": {variable.name: texts(side) for variable, side in asked.box},
-            "tree": tree,
+            "tree": None,
             "bounds": texts(bounds),
         }
         found = Value(asked.function, asked.box, bounds)

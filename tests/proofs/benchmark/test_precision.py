@@ -16,7 +16,7 @@ from intervals import Undecided
 from proofs.benchmark import codac_server, curves, horseshoe, peers, slopes, tasks
 from proofs.benchmark.__main__ import main
 from proofs.benchmark.curves import Budget, Curve, Point
-from proofs.benchmark.diagrams import Diagram, style, svg
+from proofs.benchmark.diagrams import Diagram, of_peer, svg
 from proofs.benchmark.peers import CODAC, FLINT, IV, OURS, PEERS, arithmetic
 from proofs.trusted.equations import clock, gap, launch
 
@@ -289,9 +289,9 @@ def test_what_is_across_is_the_error_or_its_digits():
 
 
 def test_a_library_has_the_same_colour_everywhere():
-    known = {style(f"{form}{name}") for form in ("", "natural, ") for name in PEERS}
+    known = {of_peer(f"{form}{name}") for form in ("", "natural, ") for name in PEERS}
     assert len(known) == len(PEERS) and None not in known
-    assert style(OURS) is style("certified map (search.image)") is None
+    assert of_peer(OURS) is of_peer("certified map (search.image)") is None
 
 
 @pytest.mark.slow
