@@ -13,10 +13,12 @@ from proofs.map import Map
 from proofs.report.figures.portrait import portrait
 from proofs.report.markup import markdown_table
 from proofs.theorem import Theorem
+from proofs.trusted.kernel.meter import DEFAULT
 from proofs.trusted.verify import check
 
 FOLDER = Path("reports/systems")
 INDEX = Path("docs/systems.md")
+_WORK = 2 * DEFAULT  # of a certificate, at most
 _MOST = 12  # theorems of a certificate that a page has in full
 Prove = Callable[[], Theorem]
 
@@ -39,7 +41,7 @@ class Published(NamedTuple):
 def theorem(file: Path) -> Theorem:
     """Return the theorem of a certificate, as the checker concludes it."""
     text = file.read_text("utf-8")
-    return Theorem(check(text).conclusions, text)
+    return Theorem(check(text, _WORK).conclusions, text)
 
 
 def page(published: Published, theorems: Mapping[str, Theorem]) -> str:

@@ -94,7 +94,7 @@ def subdivide(
     Sides are compared as parts of those of `scale`, the box itself where none is given. Raises
     Undecided if that does not end.
     """
-    left, units = [most], [high - low for low, high in scale or box]
+    left = [most]
 
     def divide(part: Box, depth: int) -> Tree:
         left[0] -= 1
@@ -105,8 +105,8 @@ def subdivide(
                 return None
         except IntervalError:
             pass
-        shares = [(high - low) / (unit or 1) for (low, high), unit in zip(part, units, strict=True)]
-        axis = shares.index(max(shares))
+        lengths = shares(part, scale or box)
+        axis = lengths.index(max(lengths))
         low, high = part[axis]
         if low == high:
             raise Undecided("not decided at a point")
@@ -115,3 +115,8 @@ def subdivide(
         return [str(axis + 1), str(cut), *(divide(side, depth + 1) for side in sides)]
 
     return divide(box, 0)
+
+
+def shares(box: Box, scale: Box) -> list[Fraction]:
+    """Return the sides of a box as parts of those of a scale, where these are no points."""
+    return [(b - a) / (d - c or 1) for (a, b), (c, d) in zip(box, scale, strict=True)]

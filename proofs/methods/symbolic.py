@@ -42,5 +42,5 @@ class SymbolicLemmas(Lemmas):
         return add_entropy(self, graph, longest)
 
     def cone(self, graph: str, form: Sequence[Number]) -> str:
-        """Add a step `cone`, with one form for all h-sets, on the whole of each."""
-        return add_cone(self, graph, [tuple(Fraction(entry) for entry in form)], 1)
+        """Add a step `cone`, with one form for all h-sets."""
+        return add_cone(self, graph, [tuple(Fraction(entry) for entry in form)])

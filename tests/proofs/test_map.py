@@ -15,6 +15,7 @@ from proofs import Map, System
 from proofs.commands.system import main
 from proofs.methods.grammar import GrammarError
 from proofs.trusted.kernel.enclose import enclosed, point_box
+from proofs.trusted.kernel.meter import DEFAULT
 from proofs.trusted.verify import Rejected, check
 
 HENON = Map("1 - 1.4*x^2 + y", "0.3*x")
@@ -25,9 +26,9 @@ def inside(box, *point):
     return all(low <= x <= high for (low, high), x in zip(box, point, strict=True))
 
 
-def accepted(theorem):
+def accepted(theorem, work=DEFAULT):
     """The checker, from the text alone, says what the theorem says."""
-    report = check(theorem.certificate)
+    report = check(theorem.certificate, work)
     assert report.sentences == tuple(each.sentence for each in theorem)
     return theorem
 
@@ -195,14 +196,16 @@ def test_an_orbit_of_the_billiard_whose_flights_last_half_a_period():
 
 @pytest.mark.long
 def test_the_horseshoe_of_roesslers_flow():
-    """CAPD proves that on two sets the second return has the entropy log 2, at least."""
+    """CAPD proves that on two sets the second return has the shift, by cones as well."""
     system = System.example("roessler")
     system.effort = 5
-    (entropy,) = accepted(system.horseshoe())
+    entropy, conjugacy = accepted(system.horseshoe(), 2 * DEFAULT)
     assert (entropy.growth, entropy.length) == (2, 1)
+    assert conjugacy.graph == entropy.graph and not conjugacy.forward
     assert "at the 2nd `t > 0` at which `x` rises through 0" in entropy.sentence
 
 
+@pytest.mark.slow
 def test_a_later_return_is_that_of_the_iterate():
     """The solution goes on from the section: P2 = P P, enclosed on ways of their own."""
     system = System.example("roessler")
@@ -275,12 +278,14 @@ def far_wall(*more):
     return System({**file, "motion": motion, "impact": impacts})
 
 
+@pytest.mark.slow
 def test_there_is_no_further_impact_where_damping_wins():
     (never,) = accepted(far_wall().impact(a="0.3", v=("-0.1", "-0.09")))
     assert never.kind == "NoImpact" and "at all `t` > 0" in never.sentence
     assert far_wall().impact(a="0.3", v="-1").conclusion.kind == "Image"
 
 
+@pytest.mark.slow
 def test_a_graze_is_between_an_impact_and_none():
     (graze,) = accepted(far_wall().graze(a="0.3", v=("-1", "-0.1")))
     (low, high), (start, end) = graze.box[1], graze.time
