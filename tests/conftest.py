@@ -9,7 +9,7 @@ import pytest
 from hypothesis import settings
 
 from tests import once
-from tests.effort import EFFORT
+from tests.effort import EFFORT, examples
 
 
 def pytest_configure(config):
@@ -20,7 +20,7 @@ def pytest_configure(config):
     start, do not compile the same files again and again.
     """
     EFFORT.quick = config.option.markexpr == "not slow"
-    settings.register_profile("suite", deadline=None)  # machines are noisy
+    settings.register_profile("suite", deadline=None, max_examples=examples(100))  # noisy machines
     settings.load_profile("suite")
     if sys.dont_write_bytecode and config.pluginmanager.hasplugin("cacheprovider"):
         folder = str(config.cache.mkdir("bytecode"))

@@ -16,7 +16,6 @@ from proofs.trusted.rules import find_rule
 ROOT = Path(__file__).parents[1]
 LEDGER = {x["id"]: x for x in json.loads((ROOT / "reports/ledger.json").read_text())["claims"]}
 NUMBER = re.compile(r"(?<![\d.])\d+\.\d+(?![\d.]*[\w])")
-_ENDS = re.compile(r"(?<=[.?])\*{0,2} (?=[A-Z`*\[])")
 OTHERS = "-", "counts", "inequalities"  # the last two: `test_readme`, `test_docs`
 OWN = {"0.2121", "0.2", "0.22", "0.21", "0.215", "0.205", "0.195", "3.9", "0.01", "3.11"}
 SETS = {"1.1", "1.11", "1.15", "1.27", "1.32", "1.48"}  # printed, or repaired

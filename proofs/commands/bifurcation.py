@@ -30,7 +30,7 @@ from proofs.methods.bifurcation.classify import meaning
 from proofs.methods.bifurcation.closed import Closed, closed
 from proofs.methods.bifurcation.maps import Map
 from proofs.methods.bifurcation.normal_forms import KINDS, NormalForm
-from proofs.methods.grammar import name as written
+from proofs.methods.grammar import name as spelled
 from proofs.methods.lemmas import Lemmas
 from proofs.shell.answers import Answer, add_answer, answering, bounds, give, lines
 from proofs.shell.cli import Parser, number, progress
@@ -103,9 +103,9 @@ def _numbers(text: str) -> dict[str, Fraction]:
     found = {}
     for each in text.split(","):
         typed, equals, value = each.partition("=")
-        if not equals or not typed.strip().isidentifier() or written(typed.strip()) in found:
+        if not equals or not typed.strip().isidentifier() or spelled(typed.strip()) in found:
             raise ArgumentTypeError(f"NAME=NUMBER is expected, once a name, not {each[:30]!r}")
-        found[written(typed.strip())] = number(value.strip())
+        found[spelled(typed.strip())] = number(value.strip())
     return found
 
 
@@ -124,7 +124,7 @@ def _names(of: Map, options: Namespace) -> tuple[str, ...]:
             raise ValueError(f"--near has numbers for {wanted}, --set for all other parameters")
         return (*of.state, *of.parameters)
     if options.solve:
-        names = tuple(written(each.strip()) for each in options.solve.split(","))
+        names = tuple(spelled(each.strip()) for each in options.solve.split(","))
     else:
         names = (*of.state, *of.parameters[:1])
     if len(set(names)) != len(of.state) + 1 or not {*names} <= {*of.state, *of.parameters}:

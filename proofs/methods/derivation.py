@@ -37,32 +37,43 @@ class Derivation:
 
     def add(self, rule: str, witness: Mapping[str, Any]) -> str:
         """Add a step that its rule concludes, and return its name; raises Unproved otherwise."""
-        derive, kind = find_rule(rule), rule.removeprefix("formula-")
-        if derive is None:
-            raise ValueError(f"no rule {rule}")
+        return self.record(rule, witness, concluded(rule, witness, self.context))
+
+    def record(self, rule: str, witness: Mapping[str, Any], conclusion: Conclusion) -> str:
+        """Add a step with what its rule concludes, and return its name."""
+        kind = rule.removeprefix("formula-")
         name = f"{kind}-{1 + sum(x['rule'] == rule for x in self.steps.values())}"
-        self.context.known[name] = derive(self.context, Reader(dict(witness)))
         self.steps[name] = {"rule": rule, "witness": dict(witness)}
+        self.known[name] = conclusion
         return name
+
+    @property
+    def known(self) -> dict[str, Conclusion]:
+        """What the steps conclude."""
+        return self.context.known
 
     def forget(self, names: set[str]) -> None:
         """Take steps out again, on which no other one rests."""
         for name in names:
-            del self.steps[name], self.context.known[name]
+            del self.steps[name], self.known[name]
 
     @contextmanager
     def undone(self) -> Iterator[None]:
         """Take back the steps and functions made inside if that fails; the failure goes on."""
-        made = self.functions, dict(self.steps), dict(self.context.known)
+        functions, tables = self.functions, (self.steps, self.known, self.context.functions)
+        before = [dict(table) for table in tables]
         try:
             yield
         except Exception:
-            self.functions, self.steps, self.context.known = made
+            self.functions = functions
+            for table, entries in zip(tables, before, strict=True):
+                table.clear()
+                table.update(entries)
             raise
 
     def conclusion(self, name: str) -> Conclusion:
         """Return what a step concludes."""
-        return self.context.known[name]
+        return self.known[name]
 
     def document(self, *claims: str) -> dict[str, Any]:
         """Return what a certificate of some steps says, with what they need.
@@ -91,3 +102,11 @@ def _needed(functions: Mapping[str, Any], names: set[str]) -> dict[str, Any]:
         if name in needed:
             needed.update(each.get("maps", ()))
     return {name: each for name, each in functions.items() if name in needed}
+
+
+def concluded(rule: str, witness: Mapping[str, Any], context: Context) -> Any:
+    """Return what the checker's rule concludes from a witness, or raise as it does."""
+    derive = find_rule(rule)
+    if derive is None:
+        raise ValueError(f"no rule {rule}")
+    return derive(context, Reader(dict(witness)))

@@ -87,7 +87,7 @@ def fates(sampled: Sampled, box: Sequence[Range], longest: int) -> list[str]:
 
 
 def _comes_to(sampled: Sampled, point: Floats, cycle: Cycle) -> bool:
-    return any(distance(sampled, point, each) < _CLOSE for each in cycle.points)
+    return bool((distance(sampled, point, cycle.points) < _CLOSE).any())
 
 
 def _angles(sampled: Sampled, x: Floats) -> list[str]:

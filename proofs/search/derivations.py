@@ -14,9 +14,10 @@ from types import MappingProxyType
 from typing import Any
 
 from intervals import Interval, Undecided, decimal_bounds
+from proofs.methods.derivation import concluded
 from proofs.methods.formulas import Tree, values
 from proofs.methods.lemmas import bounds_of, solution_witness, witness_of
-from proofs.search.evidence import Evidence, Tell, concluded
+from proofs.search.evidence import Evidence, Tell
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel import trees
 from proofs.trusted.kernel.arithmetic import Unproved

@@ -9,12 +9,10 @@ from typing import Any, TypeVar
 
 from intervals import DomainError, Undecided
 from proofs.motion.witness import Unsettled
-from proofs.trusted.certificate import Malformed, Reader
+from proofs.trusted.certificate import Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.kernel.context import Context
 from proofs.trusted.parameters import Place
-from proofs.trusted.rules import find_rule
 
 _Made = TypeVar("_Made")
 Tell = Callable[[str], None]
@@ -47,14 +45,6 @@ def floats_first(make: Callable[[bool], _Made]) -> _Made:
         if isinstance(failure, Unsettled) and failure.hopeless:
             raise
     return make(False)
-
-
-def concluded(rule: str, witness: dict[str, Any], context: Context) -> Any:
-    """Return what the checker's rule concludes from a witness, or raise as it does."""
-    theorem = find_rule(rule)
-    if theorem is None:
-        raise ValueError(f"there is no rule {rule}")
-    return theorem(context, Reader(witness))
 
 
 def search_each(

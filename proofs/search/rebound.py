@@ -10,12 +10,13 @@ from typing import Any, NamedTuple
 
 from intervals import Undecided
 from intervals.cover import PartsExhausted, cover
+from proofs.methods.derivation import concluded
 from proofs.motion.covering import halves
 from proofs.motion.digits import to_digits
 from proofs.motion.landing import separation_phase
 from proofs.motion.system import System
 from proofs.motion.witness import HORIZON, Impossible, NoImpact
-from proofs.search.evidence import Proved, concluded
+from proofs.search.evidence import Proved
 from proofs.search.image import Image, image
 from proofs.search.s33_steps import function_of
 from proofs.trusted.certificate import texts

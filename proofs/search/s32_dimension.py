@@ -107,7 +107,7 @@ class _Run:
             "test": [str(c * scale) for c in trial.coefficients],
             "bits": str(by.bits),
         }
-        return self.prover.add("dimension", witness), found
+        return self.prover.record("dimension", witness, found), found
 
     def shift(
         self, shift: StayingSet, words: tuple[str, ...], exponent: Fraction | None

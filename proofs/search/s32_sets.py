@@ -55,7 +55,7 @@ def _staying_in(sets: Parameters, of: Parameters, prover: Prover) -> Proof:
     for start in starts:
         orbit = follow(proved, list(slopes.values()), start)
         witness = {"horseshoe": base, "slopes": list(slopes), "phase": str(start)}
-        proof.append((prover.add("itinerary", witness), orbit))
+        proof.append((prover.record("itinerary", witness, orbit), orbit))
     return proof
 
 

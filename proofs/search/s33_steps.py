@@ -14,9 +14,10 @@ from itertools import pairwise, product
 from typing import Any, TypeVar
 
 from intervals.errors import Undecided
+from proofs.methods.derivation import concluded
 from proofs.motion.simulate import landing
 from proofs.motion.system import System
-from proofs.search.evidence import FAILED, concluded
+from proofs.search.evidence import FAILED
 from proofs.search.s33_rectangles import Sets, image_phases, state_after
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
@@ -91,8 +92,7 @@ class ReboundProver:
         name = self._names.get(repr(step), "")
         if self.steps.get(name) != step:
             conclusion = concluded(rule, witness, Context(self.of, {}, self.known))
-            name = self._names[repr(step)] = self.plain.add(rule, witness)
-            self.known[name] = conclusion
+            name = self._names[repr(step)] = self.plain.record(rule, witness, conclusion)
         return name
 
     def state(self, at: Place, box: Box, bits: int = BITS) -> tuple[str, Differential]:

@@ -194,7 +194,7 @@ class Partition:
             **self.entries,
             "impacts": str(self.impacts),
         }
-        return self.prover.add("absorption", witness), found
+        return self.prover.record("absorption", witness, found), found
 
 
 def _inside(low: Fraction, high: Fraction) -> tuple[float, float]:

@@ -16,11 +16,12 @@ from functools import partial
 from typing import TypeVar
 
 from intervals import Undecided
+from proofs.methods.derivation import concluded
 from proofs.motion.landing import separation
 from proofs.motion.system import System
 from proofs.motion.witness import HORIZON
 from proofs.search.derivations import Steps
-from proofs.search.evidence import FAILED, Evidence, concluded
+from proofs.search.evidence import FAILED, Evidence
 from proofs.search.s34_absorbing import Partition
 from proofs.search.s34_staying import prove_shift
 from proofs.search.steps import Prover

@@ -7,24 +7,22 @@ checker's numbers. So neither mpmath nor numpy is needed.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass, field
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import partial
 from typing import Any, TypeVar
 
+from proofs.methods.derivation import Derivation
 from proofs.methods.extremes import extremes
 from proofs.methods.moran import moran_root
 from proofs.motion.branch import Branch
 from proofs.motion.covering import cover_by
 from proofs.motion.system import System
 from proofs.motion.witness import FlightBox, Seen, locate
-from proofs.search.evidence import FAILED, Proved, concluded, floats_first
+from proofs.search.evidence import Proved, Steps, floats_first
 from proofs.trusted.certificate import texts
 from proofs.trusted.flights import FirstImpact
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.laps import SlopeRange
 from proofs.trusted.kernel.moran import MoranRoot
@@ -36,15 +34,14 @@ from proofs.trusted.slopes import Avoids, Impact, comes_to
 _Made = TypeVar("_Made")
 
 
-@dataclass
-class Prover:
-    """Collects proof steps; each is made once and named after its rule."""
+class Prover(Derivation):
+    """The proof steps about the plastic map of one oscillator; each is named after its rule."""
 
-    system: System
-    digits: int
-    horizon: Fraction
-    steps: dict[str, dict[str, Any]] = field(default_factory=dict)
-    known: dict[str, Conclusion] = field(default_factory=dict)  # what they conclude
+    def __init__(
+        self, system: System, digits: int, horizon: Fraction, steps: Steps | None = None
+    ) -> None:
+        super().__init__({}, {} if steps is None else steps, Context(system.place))
+        self.system, self.digits, self.horizon = system, digits, horizon
 
     @property
     def at(self) -> Place:
@@ -56,36 +53,10 @@ class Prover:
         """Binary places of a bracket: enough for the digits after a loss of some 2^10."""
         return self.digits * 10 // 3 + 16
 
-    @property
-    def context(self) -> Context:
-        """What a rule is told: the oscillator, and what is proved."""
-        return Context(self.at, {}, self.known)
-
-    @contextmanager
-    def undone(self) -> Iterator[None]:
-        """Take back the steps made inside if the proof fails there; the failure goes on."""
-        before = [(each, dict(each)) for each in (self.steps, self.known)]
-        try:
-            yield
-        except FAILED:
-            for each, then in before:
-                each.clear()
-                each.update(then)  # type: ignore[arg-type]
-            raise
-
-    def add(self, rule: str, witness: dict[str, Any]) -> str:
-        """Record a step and return its name."""
-        number = 1 + sum(step["rule"] == rule for step in self.steps.values())
-        name = f"{rule}-{number}"
-        self.steps[name] = {"rule": rule, "witness": witness}
-        return name
-
     def derive(self, rule: str, witness: dict[str, Any]) -> tuple[str, Any]:
-        """Record a step, with what the checker's rule concludes from it, or raises."""
-        conclusion = concluded(rule, witness, self.context)
+        """Add a step; return its name, with what it concludes."""
         name = self.add(rule, witness)
-        self.known[name] = conclusion
-        return name, conclusion
+        return name, self.known[name]
 
     def claimed(self, name: str) -> Proved:
         """Return the steps so far, that one claimed."""

@@ -175,12 +175,6 @@ def test_wide_results_are_tight():
             assert y.inf[i] == (-1 if sup_is_one(low, high, quarters[1]) else hull.inf[i])
 
 
-def test_symmetries_hold_exactly():
-    x = intervals(7, 3000)
-    assert ((-x).sin() == -x.sin()).all()
-    assert ((-x).cos() == x.cos()).all()
-
-
 # -- the measured error ----------------------------------------------------------------------------
 
 

@@ -134,18 +134,6 @@ def test_solutions_with_values_beyond_binary64_are_not_lost(f, box, targets, sol
     assert rest and all(x.contains(value) for x, value in zip(rest, solution, strict=True))
 
 
-def test_regions_where_a_condition_is_beyond_binary64():
-    (root,) = zeros(lambda x: x - 10**160, HUGE, where=lambda x: x**2)
-    assert root.box[0].contains(10**160)
-
-
-def test_a_box_between_two_branches():
-    assert contract(intervals.sin, Interval(3, 6), [Interval("0.9", 1)]) is None
-    far = Interval(10**9, 10**9 + 100)
-    assert contract(intervals.tan, Interval(2, 4), [Interval(-9, -8)]) is None
-    assert contract(intervals.sin, far, [Interval("0.9", 1)]) == (far,)
-
-
 small = st.integers(-6, 6)
 pairs = st.tuples(small, small).map(sorted)
 
@@ -195,19 +183,6 @@ def test_targets_boxes_and_what_is_no_formula():
         contract(lambda x: 1 / x, Interval(-1, 1), [0])
     with pytest.raises(ValueError, match="zip"):
         contract(lambda x: (x, x), Interval(0, 1), [0])
-
-
-def test_many_boxes_at_once_are_cut_as_each_alone():
-    def f(x, y):
-        return x * y - 1, (x / y - 1).sin()
-
-    boxes = (IntervalArray([(1, 2), (-3, 5), (3, 4)]), IntervalArray([(1, 2), (1, 4), (2, 3)]))
-    formula, zero = Formula(f, 2), [IntervalArray([0])] * 2
-    together, empty = contracted(formula, boxes, zero)
-    assert empty.tolist() == [False, False, True]
-    for i in range(2):
-        alone, _ = contracted(formula, tuple(x[i : i + 1] for x in boxes), zero)
-        assert all((x[i : i + 1] == y).all() for x, y in zip(together, alone, strict=True))
 
 
 # -- systems, with the numbers of zeros that others found ------------------------------------------

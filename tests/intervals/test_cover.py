@@ -64,19 +64,6 @@ def test_the_parts_abut_and_cover(ends, point, depth, split):
     assert all(answer == Decide(point, decide.width)(part) for part, answer in found)
 
 
-@for_all(cuts, points, st.integers(0, 5), st.sampled_from([halves, thirds]))
-def test_the_limit_counts_decisions(ends, point, depth, split):
-    width = Fraction(3, 2**depth)
-    decide = Decide(point, width)
-    found = list(cover(iter(pieces(ends)), decide, split))
-    needed = decide.calls
-    assert list(cover(pieces(ends), Decide(point, width), split, limit=needed)) == found
-    decide = Decide(point, width)
-    with pytest.raises(Undecided, match=f"{needed - 1} parts"):
-        list(cover(pieces(ends), decide, split, limit=needed - 1))
-    assert decide.calls == needed - 1
-
-
 WHOLE = (Fraction(0), Fraction(1))
 
 
@@ -97,11 +84,6 @@ def test_the_limit_and_what_is_an_answer(answer, limit, message):
     else:
         with pytest.raises(Undecided, match=message):
             list(found)
-
-
-def test_nothing_to_cover():
-    for limit in (0, 10):
-        assert list(cover([], lambda part: 1 // 0, halves, limit=limit)) == []
 
 
 def test_the_answers_before_the_error_are_yielded():

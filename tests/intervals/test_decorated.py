@@ -214,11 +214,3 @@ def test_values_that_no_interval_has_are_unbounded(name):
     beyond = f(Decorated("[2e10, 3e10]"))
     assert beyond.inf == 2**1024 and beyond.sup == inf and beyond.decoration == DAC
     assert Decorated("[1, 2e10]").pow(Decorated("[1, 2e10]")) == Decorated("[1, inf]_dac")
-
-
-def test_precision_and_the_functions_of_the_module():
-    x = Decorated("0.1", precision=200)
-    assert (x + Interval(1)).precision == (1 - x).precision == intervals.sqrt(x).precision == 200
-    assert intervals.log(Decorated(Interval(0, 1))) == Decorated("[-inf, 0]_trv")
-    assert (Interval(1, 2) * x).interval == Interval(1, 2) * Interval("0.1", precision=200)
-    assert (Interval(1) / x - Fraction(1, 3)).precision == 200

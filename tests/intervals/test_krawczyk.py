@@ -3,7 +3,6 @@
 from fractions import Fraction
 from itertools import product
 
-import numpy as np
 import pytest
 from hypothesis import strategies as st
 
@@ -13,7 +12,7 @@ from intervals.generic import meet
 from intervals.newton import Roots
 from intervals.operators import krawczyk, newton_system
 from tests.intervals.boxes import for_all
-from tests.intervals.claims import check_claim, from_roots, holds
+from tests.intervals.claims import check_claim, from_roots
 from tests.intervals.oracle import sqrt_down, sqrt_up, ulp
 
 METHODS = pytest.mark.parametrize("method", [krawczyk, newton_system])
@@ -150,27 +149,6 @@ def test_hypotheses_are_checked(method):
         method(lambda x, y: (x.sqrt(), y), square(0, 1))
 
 
-@METHODS
-def test_a_root_of_a_nonlinear_system_to_fifty_digits(method):
-    """x = exp(y), y = cos(x) / 2: one zero, checked by signs along the curve."""
-
-    def f(x, y):
-        return x - y.exp(), 2 * y - x.cos()
-
-    rough = method(f, [Interval(1, 2), Interval(0, 1)])
-    assert rough.outcome is Roots.UNIQUE
-    fine = method(f, [side.with_precision(200) for side in rough.box])
-    x = fine.box[0]
-    assert x.wid < Fraction(1, 10**50)
-
-    def along(t):
-        return (2 * t.log() - t.cos()).inf, (2 * t.log() - t.cos()).sup
-
-    gap = Fraction(1, 10**50)
-    assert along(Interval(x.inf - gap, precision=400))[1] < 0
-    assert along(Interval(x.sup + gap, precision=400))[0] > 0
-
-
 # -- systems with known rational zeros -------------------------------------------------------------
 
 
@@ -249,33 +227,3 @@ def test_simple_zeros_are_found_in_small_boxes(method):
 
     assert set(method(f, around(0)).outcomes) == {Roots.UNIQUE}
     assert set(method(f, around(Fraction(1, 5))).outcomes) == {Roots.NONE}
-
-
-@METHODS
-def test_four_variables(method):
-    """Known zero (1, 2, 3, 4) of a dense quadratic system, its value subtracted exactly."""
-    rng = np.random.default_rng(5)
-    matrix, squares = rng.integers(-9, 10, (2, 4, 4)).tolist()
-    target = [1, 2, 3, 4]
-
-    def f(*x):
-        rows = zip(matrix, squares, strict=True)
-        return [
-            sum(
-                a * (v - t) + b * (v * v - t * t)
-                for a, b, v, t in zip(p, q, x, target, strict=True)
-            )
-            for p, q in rows
-        ]
-
-    box = [Interval(t - Fraction(1, 500), t + Fraction(1, 300)) for t in target]
-    outcome, smaller, _ = method(f, box)
-    assert outcome is Roots.UNIQUE
-    assert holds(smaller, target)
-    assert max(x.wid for x in smaller) < Fraction(1, 2**40)
-
-
-@pytest.mark.parametrize("operator", [krawczyk, newton_system])
-def test_one_interval_is_a_box(operator):
-    (root,) = operator(lambda x: x - 1, Interval(0, 3)).box
-    assert root == Interval(1)

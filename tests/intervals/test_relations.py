@@ -102,16 +102,6 @@ def test_relations_with_exact_numbers_are_exact(name, number):
         assert getattr(array, name)(number).tolist() == [expected]
 
 
-def test_relations_with_a_finer_interval_are_exact():
-    third = Interval("1/3", precision=200)
-    hull = IntervalArray([third])
-    assert not hull.subset(third).any()
-    assert not hull.equal(third).any()
-    assert hull.contains(third).all()
-    assert not hull.interior(third).any()
-    assert third.subset(hull[0].item())
-
-
 @pytest.mark.parametrize("box", [*BOXES, (-1, 1), (-2, -1), (-1, 0)])
 def test_signs(box):
     inside = points(box)

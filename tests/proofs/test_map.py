@@ -223,6 +223,7 @@ def test_the_horseshoe_of_roesslers_flow():
     assert "at the 2nd `t > 0` at which `x` rises through 0" in entropy.sentence
 
 
+@pytest.mark.slow
 def test_a_later_return_is_that_of_the_iterate():
     """The solution goes on from the section: P2 = P P, enclosed on ways of their own."""
     system = System.example("roessler")
@@ -295,12 +296,14 @@ def far_wall(*more):
     return System({**file, "motion": motion, "impact": impacts})
 
 
+@pytest.mark.slow
 def test_there_is_no_further_impact_where_damping_wins():
     (never,) = accepted(far_wall().impact(a="0.3", v=("-0.1", "-0.09")))
     assert never.kind == "NoImpact" and "at all `t` > 0" in never.sentence
     assert far_wall().impact(a="0.3", v="-1").conclusion.kind == "Image"
 
 
+@pytest.mark.slow
 def test_a_graze_is_between_an_impact_and_none():
     (graze,) = accepted(far_wall().graze(a="0.3", v=("-1", "-0.1")))
     (low, high), (start, end) = graze.box[1], graze.time

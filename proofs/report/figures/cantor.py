@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 from itertools import product
-from typing import TYPE_CHECKING
 
 from proofs.motion.system import System
+from proofs.report.figures import style
 from proofs.report.figures.figure import Figure, all_of, the
 from proofs.report.figures.sampled import image, preimage
-from proofs.report.figures.style import BLUE, GREY, ORANGE, proved_boxes, sheet
+from proofs.report.figures.style import Axes, Drawing
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Range, between, show_range
 from proofs.trusted.paper.s32_sets.repeller import Repeller
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure as Drawing
 
 _LEVELS = 5
 Interval = tuple[float, float]
@@ -44,7 +40,7 @@ def cylinders(system: System, left: Range, right: Range, levels: int) -> dict[st
 def plot(proved: Context) -> Drawing:
     """Draw both constructions, level by level."""
     of, corrected = proved.of, the(proved, StayingSet)
-    drawing, both = sheet(4.2, 2, 1, sharex=True)
+    drawing, both = style.sheet(4.2, 2, 1, sharex=True)
     for axes, (left, right), name in (
         (both[0], (of.left, of.right), "printed"),
         (both[1], corrected.cells, "corrected"),
@@ -55,7 +51,7 @@ def plot(proved: Context) -> Drawing:
         dimension = between(repeller.dimension, 8)
         axes.set_title(f"{name}: I = {show_range(whole)}, dimension in {dimension}, proved")
     both[1].set_xlabel(r"$\phi$ [rad]")
-    drawing.legend(*both[1].get_legend_handles_labels(), loc="outside lower center", ncols=3)
+    style.legend_below(drawing, both[1], 3)
     return drawing
 
 
@@ -63,13 +59,15 @@ def _levels(
     axes: Axes, whole: Range, sets: tuple[Range, Range], found: dict[str, Interval]
 ) -> None:
     """Draw a row of intervals for each length of words, and name the first words."""
-    proved_boxes(axes, [(whole, (-0.3, 0.3))], GREY, "I, exact")
-    proved_boxes(axes, [(ends, (-1.3, -0.7)) for ends in sets], BLUE, "I0 and I1, exact")
+    style.proved_boxes(axes, [(whole, (-0.3, 0.3))], style.GREY, "I, exact")
+    style.proved_boxes(
+        axes, [(ends, (-1.3, -0.7)) for ends in sets], style.BLUE, "I0 and I1, exact"
+    )
     for length in range(2, _LEVELS + 1):
         spans = {word: ends for word, ends in found.items() if len(word) == length}
         bars = [(low, high - low) for low, high in spans.values()]
         label = "deeper, located in floating point" if length == 2 else "_"
-        axes.broken_barh(bars, (-length - 0.3, 0.6), color=ORANGE, lw=0.4, label=label)
+        axes.broken_barh(bars, (-length - 0.3, 0.6), color=style.ORANGE, lw=0.4, label=label)
         for word, (low, high) in spans.items() if length == 2 else ():
             axes.text((low + high) / 2, 0.33 - length, word, ha="center", va="bottom", fontsize=6)
         if length == 3 and "000" not in spans:

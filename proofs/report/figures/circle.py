@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 from proofs.motion.system import System
+from proofs.report.figures import style
 from proofs.report.figures.figure import Figure, all_of, the
 from proofs.report.figures.sampled import graph
-from proofs.report.figures.style import BLUE, GREY, ORANGE, RED, dots, proved_boxes, sheet
+from proofs.report.figures.style import Axes, Drawing
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s34_circle.landing import Lands, NeverImpacts, Separation
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure as Drawing
 
 
 def on_circle(phases: Range) -> list[tuple[float, float]]:
@@ -31,20 +27,20 @@ def on_circle(phases: Range) -> list[tuple[float, float]]:
 def plot(proved: Context) -> Drawing:
     """Draw f, the sticking arc, what lands on it at once, and the orbit."""
     arc = the(proved, Separation)
-    drawing, axes = sheet(5.2)
+    drawing, axes = style.sheet(5.2)
     start, leaves, lands = (sum(map(float, x)) / 2 for x in (arc.start, arc.phase, arc.arrival))
     landing = [part for step in all_of(proved, Lands) for part in on_circle(step.phases)]
     label = "these phases land on the sticking arc at once, proved"
-    proved_boxes(axes, [(part, (start, leaves)) for part in landing], "#C6E5F7", label, lw=0)
+    style.proved_boxes(axes, [(part, (start, leaves)) for part in landing], "#C6E5F7", label, lw=0)
     label = "the mass sticks, and leaves at $\\phi_s$, proved"
-    proved_boxes(axes, [((start, leaves), arc.phase)], ORANGE, label, lw=2.5)
-    proved_boxes(axes, [((start, leaves), (-0.12, 0.0))], ORANGE)
+    style.proved_boxes(axes, [((start, leaves), arc.phase)], style.ORANGE, label, lw=2.5)
+    style.proved_boxes(axes, [((start, leaves), (-0.12, 0.0))], style.ORANGE)
     for step in all_of(proved, NeverImpacts):
         label = "no impact ever, proved"
-        proved_boxes(axes, [(step.phases, (0, math.tau))], RED, label, lw=0.8)
+        style.proved_boxes(axes, [(step.phases, (0, math.tau))], style.RED, label, lw=0.8)
     system = System(arc.at.eta[0], arc.at.nu[0])
-    dots(axes, graph(system, 0.0, math.tau, 1200), "f, sampled")
-    axes.plot([0, math.tau], [0, math.tau], color=GREY, lw=0.6, label=r"$f(\phi) = \phi$")
+    style.dots(axes, graph(system, 0.0, math.tau, 1200), "f, sampled")
+    axes.plot([0, math.tau], [0, math.tau], color=style.GREY, lw=0.6, label=r"$f(\phi) = \phi$")
     _orbit(axes, lands, leaves)
     ticks = {0: "0", start: r"$\phi_a$", lands: r"$\phi_1$", leaves: r"$\phi_s$"}
     ticks |= {1: "1", 2: "2"}
@@ -52,16 +48,16 @@ def plot(proved: Context) -> Drawing:
     axes.set_yticks([0, 1, 2, 3, lands, leaves], ["0", "1", "2", "3", r"$\phi_1$", r"$\phi_s$"])
     axes.set(xlabel=r"$\phi$ [rad]", ylabel=r"$f(\phi)$ [rad]")
     axes.set(xlim=(0, math.tau), ylim=(-0.12, math.tau))
-    drawing.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    style.legend_below(drawing, axes, 2)
     return drawing
 
 
 def _orbit(axes: Axes, lands: float, leaves: float) -> None:
     """Draw the periodic orbit between the graph and the diagonal."""
     corners = [lands, lands, leaves, leaves, lands], [lands, leaves, leaves, lands, lands]
-    axes.plot(*corners, "--", color=BLUE, lw=0.9)
+    axes.plot(*corners, "--", color=style.BLUE, lw=0.9)
     label = r"the orbit $\phi_1 \to \phi_s \to \phi_1$, proved"
-    axes.plot([lands, leaves], [leaves, lands], "o", color=BLUE, markersize=5, label=label)
+    axes.plot([lands, leaves], [leaves, lands], "o", color=style.BLUE, markersize=5, label=label)
 
 
 FIGURE = Figure(

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
+from proofs.report.figures import style
 from proofs.report.figures.figure import Figure, all_of, the
-from proofs.report.figures.style import BLACK, BLUE, GREEN, ORANGE, PROVED, PURPLE, sheet
+from proofs.report.figures.style import Drawing
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.paper.beyond.grazing import (
     ETA,
@@ -19,12 +19,9 @@ from proofs.trusted.paper.beyond.grazing import (
 )
 from proofs.trusted.paper.beyond.meetings import Meeting
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure as Drawing
-
 _POINTS = 400
 _WIDEST = 2  # eta
-_COLOURS = {"folds": GREEN, "flips": ORANGE, "where it begins to stick": PURPLE}
+_COLOURS = {"folds": style.GREEN, "flips": style.ORANGE, "where it begins to stick": style.PURPLE}
 _DASHES = ("-", (0, (4, 1)))  # of n = 1, 2
 
 
@@ -68,7 +65,7 @@ def along(curve: GrazingCurve) -> tuple[list[float], list[float]]:
 def plot(proved: Context) -> Drawing:
     """Draw all curves of a certificate."""
     epsilon = the(proved, GrazingCurve).epsilon
-    drawing, axes = sheet(3.6)
+    drawing, axes = style.sheet(3.6)
     seen: set[str] = set()
 
     def once(text: str) -> str:
@@ -78,21 +75,23 @@ def plot(proved: Context) -> Drawing:
 
     for curve in all_of(proved, GrazingCurve):
         label, dashes = once(f"grazing, n = {curve.n}"), _DASHES[(curve.n - 1) % 2]
-        axes.plot(*along(curve), color=BLUE, lw=1.8, ls=dashes, gid=PROVED, label=label)
+        axes.plot(*along(curve), color=style.BLUE, lw=1.8, ls=dashes, gid=style.PROVED, label=label)
     for n in sorted({curve.n for curve in all_of(proved, GrazingCurve)}):
         for window in range(_WIDEST * 2 * n):
             for name, etas, nus in closed(
                 n, ratio(epsilon), window / (2 * n), (window + 1) / (2 * n)
             ):
-                style = {"color": _COLOURS[name], "lw": 0.7, "ls": _DASHES[(n - 1) % 2]}
-                axes.plot(etas, nus, **style, label=once(f"{name}, n = {n}"))
+                line = {"color": _COLOURS[name], "lw": 0.7, "ls": _DASHES[(n - 1) % 2]}
+                axes.plot(etas, nus, **line, label=once(f"{name}, n = {n}"))
     for each in all_of(proved, Meeting):
         place = float(sum(each.box[ETA]) / 2), float(sum(each.amplitude) / 2)
-        axes.plot(*place, "o", color=BLACK, markersize=3, gid=PROVED, label=once("they meet"))
+        axes.plot(
+            *place, "o", color=style.BLACK, markersize=3, gid=style.PROVED, label=once("they meet")
+        )
     axes.axhline(0, color="0.7", lw=0.4)
     axes.set(xlabel=r"$\eta$", ylabel=r"$\nu$", ylim=(-1, 1))
     axes.set_title(rf"$\epsilon$ = {float(epsilon):g}")
-    drawing.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    style.legend_below(drawing, axes, 4)
     return drawing
 
 

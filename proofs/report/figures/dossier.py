@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 from intervals import Undecided
 from proofs.motion.system import System
+from proofs.report.figures import style
 from proofs.report.figures.circle import on_circle
 from proofs.report.figures.figure import Figure, all_of
 from proofs.report.figures.sampled import graph
-from proofs.report.figures.style import BLUE, GREY, ORANGE, RED, dots, proved_boxes, sheet
+from proofs.report.figures.style import Drawing
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.coverings import EntropyBound
 from proofs.trusted.kernel.loops import StableOrbit
@@ -19,9 +19,6 @@ from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.beyond.returning import StickingMotion
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure as Drawing
 
 _SAMPLES = 1200
 _BELOW = (-0.12, 0.0)  # where sets of phases are marked
@@ -43,28 +40,28 @@ def plot(proved: Context) -> Drawing:
     kinds = (StayingSet, EntropyBound, StableOrbit, StickingMotion, NeverImpacts)
     if not any(all_of(proved, kind) for kind in kinds):
         raise Undecided("the certificate proves nothing about sets of phases")
-    drawing, axes = sheet(5.2)
+    drawing, axes = style.sheet(5.2)
     for arc in all_of(proved, Separation):
         sticking = [(part, _BELOW) for part in on_circle((arc.start[1], arc.phase[0]))]
-        proved_boxes(axes, sticking, ORANGE, "the mass sticks, proved")
+        style.proved_boxes(axes, sticking, style.ORANGE, "the mass sticks, proved")
     for none in all_of(proved, NeverImpacts):
         label = "no impact ever, proved"
-        proved_boxes(axes, [(none.phases, (0, math.tau))], RED, label, lw=0.8)
+        style.proved_boxes(axes, [(none.phases, (0, math.tau))], style.RED, label, lw=0.8)
     for shift in all_of(proved, StayingSet):
-        proved_boxes(axes, crossings(shift), "#C6E5F7", "crossed by f, proved", lw=0.3)
+        style.proved_boxes(axes, crossings(shift), "#C6E5F7", "crossed by f, proved", lw=0.3)
     for graph_found in all_of(proved, EntropyBound):
         branches = [(branch.source, _BELOW) for branch in graph_found.branches]
-        proved_boxes(axes, branches, BLUE, "branches of a covering graph, proved")
+        style.proved_boxes(axes, branches, style.BLUE, "branches of a covering graph, proved")
     for orbit in all_of(proved, StableOrbit):
         boxes = steps((*orbit.cells, orbit.cells[0]))
-        proved_boxes(axes, boxes, BLUE, "a stable orbit, proved", lw=4)
+        style.proved_boxes(axes, boxes, style.BLUE, "a stable orbit, proved", lw=4)
     for motion in all_of(proved, StickingMotion):
-        proved_boxes(axes, steps(motion.cells), ORANGE, "its impacts, proved", lw=4)
-    dots(axes, graph(System(of.eta, of.nu), 0.0, math.tau, _SAMPLES), "f, sampled")
-    axes.plot([0, math.tau], [0, math.tau], color=GREY, lw=0.6, label=r"$f(\phi) = \phi$")
+        style.proved_boxes(axes, steps(motion.cells), style.ORANGE, "its impacts, proved", lw=4)
+    style.dots(axes, graph(System(of.eta, of.nu), 0.0, math.tau, _SAMPLES), "f, sampled")
+    axes.plot([0, math.tau], [0, math.tau], color=style.GREY, lw=0.6, label=r"$f(\phi) = \phi$")
     axes.set(xlabel=r"$\phi$ [rad]", ylabel=r"$f(\phi)$ [rad]")
     axes.set(xlim=(0, math.tau), ylim=(_BELOW[0], math.tau))
-    drawing.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    style.legend_below(drawing, axes, 2)
     return drawing
 
 

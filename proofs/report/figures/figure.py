@@ -6,17 +6,14 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 from intervals import Undecided
-from proofs.report.figures.style import style, svg_of
+from proofs.report.figures.style import Drawing, style, svg_of
 from proofs.trusted.files import read
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.verify import premises
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure as Drawing
 
 Documents = Mapping[str, Context]
 C = TypeVar("C", bound=Conclusion)

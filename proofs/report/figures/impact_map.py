@@ -2,34 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from fractions import Fraction
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 from proofs.motion.system import System
+from proofs.report.figures import style
 from proofs.report.figures.figure import Figure, all_of, the
 from proofs.report.figures.sampled import graph
-from proofs.report.figures.style import (
-    BLACK,
-    BLUE,
-    GREY,
-    ORANGE,
-    RED,
-    dots,
-    proved_boxes,
-    proved_polygons,
-    sheet,
-)
+from proofs.report.figures.style import Axes, Drawing
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.laps import SlopeRange
 from proofs.trusted.kernel.staying import StayingSet
-from proofs.trusted.numbers import Range, between, show, show_range
+from proofs.trusted.numbers import between, show, show_range
 from proofs.trusted.slopes import Avoids
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure as Drawing
 
 Corners = list[tuple[Fraction, Fraction]]
 
@@ -54,19 +39,26 @@ def hulls(slopes: SlopeRange) -> list[Corners]:
 def plot(proved: Context) -> Drawing:
     """Draw the graph, the printed and the corrected I, and where f is proved not to go."""
     of, corrected = proved.of, the(proved, StayingSet)
-    drawing, axes = sheet(5.0)
+    drawing, axes = style.sheet(5.0)
     low, high = (float(x) for x in corrected.interval)
     _gap(axes, the(proved, Avoids))
-    for colour, slopes in zip((BLUE, RED), all_of(proved, SlopeRange), strict=False):
+    for colour, slopes in zip((style.BLUE, style.RED), all_of(proved, SlopeRange), strict=False):
         label = f"graph of f on {show_range(slopes.domain)}, proved"
-        proved_polygons(axes, hulls(slopes), colour, label)
-    dots(axes, graph(System(of.eta, of.nu), low, high, 240), "f, sampled")
-    axes.plot([low, high], [low, high], color=GREY, lw=0.6, label=r"$f(\phi) = \phi$")
-    _square(axes, of.interval, (0, (2, 2)), f"printed $I \\times I$, I = {show_range(of.interval)}")
-    label = f"corrected $I \\times I$, I = {show_range(corrected.interval)}"
-    _square(axes, corrected.interval, "-", label)
-    _on_axis(axes, (of.left, of.right), 1.063, ORANGE, "printed")
-    _on_axis(axes, corrected.cells, 1.048, "0.75", "corrected")
+        style.proved_polygons(axes, hulls(slopes), colour, label)
+    style.dots(axes, graph(System(of.eta, of.nu), low, high, 240), "f, sampled")
+    axes.plot([low, high], [low, high], color=style.GREY, lw=0.6, label=r"$f(\phi) = \phi$")
+    for name, interval, dashes in (
+        ("printed", of.interval, (0, (2, 2))),
+        ("corrected", corrected.interval, "-"),
+    ):
+        label = f"{name} $I \\times I$, I = {show_range(interval)}"
+        style.outline(axes, interval, interval, label, lw=0.7, ls=dashes)
+    for name, sets, height, colour in (
+        ("printed", (of.left, of.right), 1.063, style.ORANGE),
+        ("corrected", corrected.cells, 1.048, "0.75"),
+    ):
+        style.on_axis(axes, sets, height, colour, "$I_{}$", fontsize=7)
+        axes.text(1.21, height, name, ha="center", va="center", fontsize=7)
     _shortfall(axes, proved)
     axes.set(xlabel=r"$\phi$ [rad]", ylabel=r"$f(\phi)$ [rad]", xlim=(1.085, 1.335))
     axes.set_ylim(1.04, 1.42)
@@ -89,22 +81,7 @@ def _shortfall(axes: Axes, proved: Context) -> None:
 def _gap(axes: Axes, avoids: Avoids) -> None:
     """Fill what f is proved to miss."""
     label = f"f has no value in here, for $\\phi$ in {show_range(avoids.phases)}, proved"
-    proved_boxes(axes, [(avoids.phases, avoids.target)], "0.9", label)
-
-
-def _square(axes: Axes, interval: Range, style: object, label: str) -> None:
-    low, high = (float(x) for x in interval)
-    corners = [low, high, high, low, low], [low, low, high, high, low]
-    axes.plot(*corners, linestyle=style, color=BLACK, lw=0.7, label=label)
-
-
-def _on_axis(axes: Axes, sets: Sequence[Range], y: float, colour: str, name: str) -> None:
-    """Mark I0 and I1 above the axis."""
-    for index, ends in enumerate(sets):
-        low, high = (float(x) for x in ends)
-        axes.plot([low, high], [y, y], color=colour, lw=7, solid_capstyle="butt")
-        axes.text((low + high) / 2, y, rf"$I_{index}$", ha="center", va="center", fontsize=7)
-    axes.text(1.21, y, name, ha="center", va="center", fontsize=7)
+    style.proved_boxes(axes, [(avoids.phases, avoids.target)], "0.9", label)
 
 
 FIGURE = Figure(

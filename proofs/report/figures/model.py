@@ -3,19 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
-from proofs.motion.simulate import next_impact
+from proofs.motion.simulate import next_impact, separation_phase
 from proofs.motion.system import System
+from proofs.report.figures import style
 from proofs.report.figures.figure import Figure
-from proofs.report.figures.sampled import separation
-from proofs.report.figures.style import BLACK, BLUE, GREY, ORANGE, RED, sheet
+from proofs.report.figures.style import Axes, Drawing
 from proofs.trusted.equations import arrival, clock, launch, launch_acceleration
 from proofs.trusted.kernel.context import Context
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure as Drawing
 
 _TURNS = 40
 _SAMPLES = 30  # a turn
@@ -32,7 +27,7 @@ def motion(system: System, begin: float, turns: int) -> tuple[list[tuple[float, 
     while now < end:
         start = launch(side, eta, nu, now % math.tau)
         if launch_acceleration(start) < 0:
-            leaves = now + (separation(system) - now) % math.tau
+            leaves = now + (separation_phase(system) - now) % math.tau
             samples += _steps(now, min(leaves, end), lambda t: _table(system, t))
             now = leaves + _JUST_AFTER
             start = launch(side, eta, nu, now % math.tau)
@@ -61,15 +56,17 @@ def _steps(first: float, last: float, position: object) -> list[tuple[float, flo
 def plot(proved: Context) -> Drawing:
     """Draw the model, and a motion at the oscillator of the certificate."""
     system = System(proved.of.eta, proved.of.nu)
-    drawing, (left, right) = sheet(3.0, 1, 2, width_ratios=(1, 2.6))
+    drawing, (left, right) = style.sheet(3.0, 1, 2, width_ratios=(1, 2.6))
     _model(left)
     samples, impacts = motion(system, _BEGIN, _TURNS)
     times, heights = zip(*samples, strict=True)
-    right.plot(times, [_table(system, math.tau * t) for t in times], color=ORANGE, label="table z")
-    right.plot(times, heights, color=BLUE, label="mass x")
+    right.plot(
+        times, [_table(system, math.tau * t) for t in times], color=style.ORANGE, label="table z"
+    )
+    right.plot(times, heights, color=style.BLUE, label="mass x")
     marks = [samples[k] for k in impacts]
-    right.plot(*zip(*marks, strict=True), "o", color=RED, markersize=3, label="impacts")
-    right.axhline(0, color=GREY, lw=0.5, zorder=0)
+    right.plot(*zip(*marks, strict=True), "o", color=style.RED, markersize=3, label="impacts")
+    right.axhline(0, color=style.GREY, lw=0.5, zorder=0)
     right.set(xlabel=r"time [turns of the table]", ylabel="position / |p|", ylim=(-1.6, 2.3))
     right.legend(ncols=3, loc="upper right")
     right.set_title("a motion with plastic impacts, in floating point")
@@ -84,17 +81,17 @@ def _model(axes: Axes) -> None:
     axes.set_aspect("equal")
     axes.axis("off")
     for k in range(9):
-        axes.plot([0.2 * k - 0.9, 0.2 * k - 0.7], [2.1, 2.28], color=BLACK, lw=0.5)
-    axes.plot([-0.9, 0.9], [2.1, 2.1], color=BLACK)
+        axes.plot([0.2 * k - 0.9, 0.2 * k - 0.7], [2.1, 2.28], color=style.BLACK, lw=0.5)
+    axes.plot([-0.9, 0.9], [2.1, 2.1], color=style.BLACK)
     zigzag = [0, 0, *[0.22 * (-1) ** k for k in range(9)], 0, 0]
     heights = [2.1, 1.95, *[1.85 - 0.15 * k for k in range(9)], 0.52, 0.4]
-    axes.plot(zigzag, heights, color=BLACK)
-    axes.add_patch(Rectangle((-0.4, 0), 0.8, 0.4, facecolor=BLUE, edgecolor="none"))
-    axes.add_patch(Rectangle((-1.1, -1.5), 2.2, 0.3, facecolor=ORANGE, edgecolor="none"))
+    axes.plot(zigzag, heights, color=style.BLACK)
+    axes.add_patch(Rectangle((-0.4, 0), 0.8, 0.4, facecolor=style.BLUE, edgecolor="none"))
+    axes.add_patch(Rectangle((-1.1, -1.5), 2.2, 0.3, facecolor=style.ORANGE, edgecolor="none"))
     for y, name in ((0, "$x = 0$"), (-1.35, "$-p$")):
-        axes.plot([-1.4, 1.25], [y, y], ":", color=GREY, lw=0.7, zorder=0)
+        axes.plot([-1.4, 1.25], [y, y], ":", color=style.GREY, lw=0.7, zorder=0)
         axes.text(1.3, y, name, va="center")
-    arrow = {"arrowstyle": "<->", "color": BLACK, "lw": 0.8, "shrinkA": 0, "shrinkB": 0}
+    arrow = {"arrowstyle": "<->", "color": style.BLACK, "lw": 0.8, "shrinkA": 0, "shrinkB": 0}
     axes.annotate("", (-1.25, -0.95), (-1.25, -1.75), arrowprops=arrow)
     axes.text(0.5, 0.2, "$x(t)$", va="center")
     axes.text(0, -1.85, r"$z(t) = -p + \beta\,\sin\,\omega t$", ha="center", va="center")

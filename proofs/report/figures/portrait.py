@@ -23,7 +23,8 @@ def portrait(points: Any, variables: Sequence[str], proved: Sequence[Conclusion]
         drawing, axes = sheet(3.6)
         flat = len(variables) == 1
         x, y = points[:, 0], (range(len(points)) if flat else points[:, 1])
-        axes.plot(x, y, ".", color=GREY, markersize=1, label="sampled, not proved")
+        look = {"color": GREY, "markersize": 1, "rasterized": True}  # thousands of points
+        axes.plot(x, y, ".", label="sampled, not proved", **look)
         for entropy in (each for each in proved if isinstance(each, Entropy)):
             map_ = entropy.graph.covers[0].local.map
             for node in entropy.graph.nodes:
@@ -33,7 +34,7 @@ def portrait(points: Any, variables: Sequence[str], proved: Sequence[Conclusion]
         axes.set_ylabel("" if flat else variables[1])
         axes.legend(loc="upper right")
         stream = StringIO()
-        drawing.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
+        drawing.savefig(stream, format="svg", dpi=150, metadata={"Date": None, "Creator": None})
     return stream.getvalue()
 
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from intervals import Undecided
+from proofs.report.figures import style
 from proofs.report.figures.figure import Figure, all_of
-from proofs.report.figures.style import BLACK, BLUE, RED, dots, proved_boxes, sheet
+from proofs.report.figures.style import Axes, Drawing
 from proofs.search.s33_rectangles import state_after
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.horseshoe import Horseshoe
@@ -17,10 +17,6 @@ from proofs.trusted.paper.s33_restitution.horseshoes import shoes
 from proofs.trusted.paper.s33_restitution.rectangles import Strips
 from proofs.trusted.paper.s33_restitution.words import golden_means
 from proofs.trusted.parameters import Place
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure as Drawing
 
 _EDGE = 40  # samples of a side
 
@@ -35,7 +31,7 @@ def plot(proved: Context) -> Drawing:
     corrected = next((x for x in known if x.at == printed.at), None)
     if corrected is None:
         raise Undecided("no horseshoe is proved at the printed epsilon")
-    drawing, both = sheet(3.6, 1, 2, sharey=True)
+    drawing, both = style.sheet(3.6, 1, 2, sharey=True)
     for axes, found, name in ((both[0], printed, "printed"), (both[1], corrected, "corrected")):
         if not isinstance(found.strips, Strips):
             raise Undecided("the rectangles are not two with the same velocities")
@@ -45,8 +41,7 @@ def plot(proved: Context) -> Drawing:
         axes.set_ylim(-0.48, 0.06)
         axes.set_xlabel(r"phase $\phi$ [rad]")
     both[0].set_ylabel(r"velocity $\gamma$ before the impact")
-    handles, labels = both[0].get_legend_handles_labels()
-    drawing.legend(handles, labels, loc="outside lower center", ncols=2)
+    style.legend_below(drawing, both[0], 2)
     return drawing
 
 
@@ -54,7 +49,7 @@ def _strips(axes: Axes, proved: Context, at: Place, strips: Strips) -> None:
     """Draw V1 and V2, boxes around their images, and images of their sides in floating point."""
     points = []
     for index, (box, light, dark) in enumerate(
-        zip(strips.boxes, ("#A6CDE8", "#F2BE97"), (BLUE, RED), strict=True), start=1
+        zip(strips.boxes, ("#A6CDE8", "#F2BE97"), (style.BLUE, style.RED), strict=True), start=1
     ):
         phases, velocities = box
         for each in all_of(proved, Rectangle):
@@ -62,20 +57,14 @@ def _strips(axes: Axes, proved: Context, at: Place, strips: Strips) -> None:
                 continue
             whole = [(part.values[0], part.values[1]) for part in each.parts]
             edges = [(phase, velocity) for phase, velocity in each.edges]
-            proved_boxes(axes, whole, light, f"image of V{index} lies in here, proved", lw=0)
+            style.proved_boxes(axes, whole, light, f"image of V{index} lies in here, proved", lw=0)
             label = "those of its left and right sides in here, proved"
-            proved_boxes(axes, edges, dark, label, lw=0)
-        _outline(axes, phases, velocities, f"V{index}")
+            style.proved_boxes(axes, edges, dark, label, lw=0)
+        style.outline(axes, phases, velocities, "V1 and V2" if index == 1 else "_", lw=0.8)
+        place = float(sum(phases)) / 2, float(velocities[1]) + 0.01
+        axes.text(*place, f"V{index}", ha="center", va="bottom")
         points += _boundary(at, phases, velocities)
-    dots(axes, points, "images of the sides, sampled", 0.9)
-
-
-def _outline(axes: Axes, phases: Range, velocities: Range, name: str) -> None:
-    (left, right), (low, high) = (tuple(map(float, ends)) for ends in (phases, velocities))
-    label = "V1 and V2" if name == "V1" else "_"
-    corners = [left, right, right, left, left], [low, low, high, high, low]
-    axes.plot(*corners, color=BLACK, lw=0.8, label=label)
-    axes.text((left + right) / 2, high + 0.01, name, ha="center", va="bottom")
+    style.dots(axes, points, "images of the sides, sampled", 0.9)
 
 
 def _boundary(at: Place, phases: Range, velocities: Range) -> list[tuple[float, float]]:

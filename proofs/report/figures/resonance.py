@@ -4,18 +4,14 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 from intervals import Undecided
+from proofs.report.figures import style
 from proofs.report.figures.figure import Figure
-from proofs.report.figures.style import BLUE, GREY, ORANGE, PROVED, RED, sheet
+from proofs.report.figures.style import Axes, Drawing
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.paper import find
 from proofs.trusted.verdicts import Verdict
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure as Drawing
 
 _EPSILONS = (0.7, 0.3)
 _STARTS = ((1.5, -0.5), (3.0, -0.8), (4.6, -1.1), (6.1, -1.4))  # phase and c of first impacts
@@ -37,15 +33,14 @@ def plot(proved: Context) -> Drawing:
     decision = None if row is None else row.decide(proved.of, list(proved.known.values()))
     if decision is None or decision.verdict is not Verdict.REFUTED:
         raise Undecided("that there are no double-impact orbits is not proved")
-    drawing, both = sheet(2.9, 1, 2, sharey=True)
+    drawing, both = style.sheet(2.9, 1, 2, sharey=True)
     for axes, epsilon in zip(both, _EPSILONS, strict=True):
         _motions(axes, epsilon)
-        axes.axhline(0, color=BLUE, lw=3, gid=PROVED, zorder=0, label=_GRAZING)
+        axes.axhline(0, color=style.BLUE, lw=3, gid=style.PROVED, zorder=0, label=_GRAZING)
         axes.set_title(rf"$\varepsilon$ = {epsilon}, $\eta$ = 1, $\nu$ < 0")
         axes.set(xlabel=r"phase $\phi$ [rad]", xlim=(0, math.tau))
     both[0].set_ylabel(r"$c = \gamma + \nu\,\cos\,\phi$ before the impact")
-    handles, labels = both[0].get_legend_handles_labels()
-    drawing.legend(handles, labels, loc="outside lower center", ncols=1)
+    style.legend_below(drawing, both[0], 1)
     return drawing
 
 
@@ -55,7 +50,9 @@ _GRAZING = "c = 0: the grazing orbits of period one; there are no other periodic
 def _motions(axes: Axes, epsilon: float) -> None:
     """Draw impacts of some motions, those of one motion joined."""
     label = "impacts of four motions, by the closed form of the map in floating point"
-    for colour, (phase, c) in zip((ORANGE, RED, GREY, "#222222"), _STARTS, strict=True):
+    for colour, (phase, c) in zip(
+        (style.ORANGE, style.RED, style.GREY, "#222222"), _STARTS, strict=True
+    ):
         points = [(x % math.tau, y) for x, y in orbit(epsilon, phase, c)]
         for first, second in pairwise(points):
             if abs(first[0] - second[0]) < math.pi:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from proofs.motion.candidate import next_impact as first_impact
-from proofs.motion.simulate import next_impact
+from proofs.motion.simulate import next_impact, separation_phase
 from proofs.motion.system import System
 from proofs.trusted.equations import launch, launch_acceleration
 
@@ -17,15 +17,9 @@ def image(system: System, phase: float) -> float | None:
     """Return f(phase), the separation phase where the mass sticks; None if there is no impact."""
     start = launch(system.side, float(system.eta), float(system.nu), phase)
     if launch_acceleration(start) < 0:
-        return separation(system)
+        return separation_phase(system) % math.tau
     found = next_impact(system, phase, 0.0, _HORIZON)
     return None if found is None else (phase + found[0]) % math.tau
-
-
-def separation(system: System) -> float:
-    """Return the phase at which a sticking mass leaves the table."""
-    root = math.asin(float(system.separation_sine or 0))
-    return (root if system.eta < 1 else math.pi - root) % math.tau
 
 
 def graph(system: System, first: float, last: float, count: int) -> list[tuple[float, float]]:

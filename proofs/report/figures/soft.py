@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 from intervals import Undecided
+from proofs.report.figures import style
 from proofs.report.figures.figure import Figure, all_of
-from proofs.report.figures.style import BLACK, BLUE, GREEN, ORANGE, PROVED, PURPLE, RED, sheet
+from proofs.report.figures.style import Axes, Drawing
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved, rational
 from proofs.trusted.kernel.context import Context
@@ -20,10 +20,6 @@ from proofs.trusted.paper.formulas import Asked
 from proofs.trusted.paper.s5_soft import displayed as eq
 from proofs.trusted.paper.s5_soft import orbits
 from proofs.trusted.verdicts import Verdict
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure as Drawing
 
 _PERIODS = 1  # m
 _HIGHEST = 9.0  # rho
@@ -93,19 +89,21 @@ def plot(proved: Context) -> Drawing:
         decision = None if row is None else row.decide(proved.of, list(proved.known.values()))
         if decision is None or decision.verdict is Verdict.UNDECIDED:
             raise Undecided(f"{claim} is not decided")
-    drawing, axes = sheet(4.4)
+    drawing, axes = style.sheet(4.4)
     _regions(axes)
     _orbits(axes)
     epsilons = [float(each) for each in _epsilons()]
-    axes.plot(epsilons, curve(eq.RHO_M), "--", color=RED, label=r"printed $\rho_m$, refuted")
+    axes.plot(epsilons, curve(eq.RHO_M), "--", color=style.RED, label=r"printed $\rho_m$, refuted")
     printed = [rho if rho < 3 * _HIGHEST else math.nan for rho in curve(eq.RHO_MF)]
-    axes.plot(epsilons, printed, ":", color=RED, lw=1.2, label=r"printed $\rho_m^f$, refuted")
+    axes.plot(epsilons, printed, ":", color=style.RED, lw=1.2, label=r"printed $\rho_m^f$, refuted")
     label = "where printed claims are refuted"
-    axes.plot(*zip(*witnesses(proved), strict=True), "o", color=BLACK, markersize=4, label=label)
+    axes.plot(
+        *zip(*witnesses(proved), strict=True), "o", color=style.BLACK, markersize=4, label=label
+    )
     axes.set(xlabel=r"$\varepsilon$", ylabel=r"$\rho = 2\omega^2\beta/g$")
     axes.set(xlim=(0, 0.99), ylim=(0, _HIGHEST))
     axes.set_title(f"m = {_PERIODS}: flights over one period of the table, $\\omega_n \\to 0$")
-    drawing.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    style.legend_below(drawing, axes, 2)
     return drawing
 
 
@@ -124,22 +122,26 @@ def _regions(axes: Axes) -> None:
     )
     for low, high, colour, name in regions:
         label = name if name == "_" else f"{name}, proved"
-        axes.fill_between(epsilons, low, high, color=colour, lw=0, label=label, gid=PROVED)
+        axes.fill_between(epsilons, low, high, color=colour, lw=0, label=label, gid=style.PROVED)
     label = r"saddle-node at $\rho_{SN}$, proved"
-    axes.plot(epsilons, born, color=BLUE, lw=1.2, gid=PROVED, label=label)
+    axes.plot(epsilons, born, color=style.BLUE, lw=1.2, gid=style.PROVED, label=label)
     label = r"flip at $\rho_F$, proved"
-    axes.plot(epsilons, flip, color=ORANGE, lw=1.2, gid=PROVED, label=label)
+    axes.plot(epsilons, flip, color=style.ORANGE, lw=1.2, gid=style.PROVED, label=label)
 
 
 def _orbits(axes: Axes) -> None:
     """Draw where the flights of fixed points graze: beyond, they are no orbits."""
     rows = grazing()
     for colour, kept, label in (
-        (GREEN, [row for row in rows if row[1] >= 0], r"above it $\psi$ is an orbit, proved"),
-        (PURPLE, [row for row in rows if row[1] <= 0], r"below it $-\psi$ is an orbit, proved"),
+        (style.GREEN, [row for row in rows if row[1] >= 0], r"above it $\psi$ is an orbit, proved"),
+        (
+            style.PURPLE,
+            [row for row in rows if row[1] <= 0],
+            r"below it $-\psi$ is an orbit, proved",
+        ),
     ):
         x, y = [epsilon for epsilon, _, _ in kept], [rho for _, _, rho in kept]
-        axes.plot(x, y, color=colour, lw=1.6, gid=PROVED, label=label)
+        axes.plot(x, y, color=colour, lw=1.6, gid=style.PROVED, label=label)
 
 
 FIGURE = Figure(

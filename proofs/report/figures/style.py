@@ -6,11 +6,15 @@ import io
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure as Drawing
+    from matplotlib import axes, figure
+
+    Axes: TypeAlias = axes.Axes
+    Drawing: TypeAlias = figure.Figure
+else:  # matplotlib is imported where something is drawn
+    Axes = Drawing = Any
 
 # Okabe and Ito's colours, which the colour-blind tell apart
 BLUE, ORANGE, GREEN, RED = "#0072B2", "#E69F00", "#009E73", "#D55E00"
@@ -60,6 +64,37 @@ def sheet(height: float, rows: int = 1, columns: int = 1, **options: Any) -> tup
     from matplotlib import pyplot as plt
 
     return plt.subplots(rows, columns, figsize=(WIDTH, height), **options)
+
+
+def legend_below(drawing: Drawing, axes: Axes, columns: int) -> None:
+    """Put the legend of some axes below the drawing."""
+    handles = axes.get_legend_handles_labels()
+    drawing.legend(*handles, loc="outside lower center", ncols=columns)
+
+
+def outline(
+    axes: Axes, across: Sequence[Any], upward: Sequence[Any], label: str, **more: Any
+) -> None:
+    """Draw the sides of a rectangle, given by a range of x and one of y."""
+    (left, right), (low, high) = (map(float, ends) for ends in (across, upward))
+    corners = [left, right, right, left, left], [low, low, high, high, low]
+    axes.plot(*corners, color=BLACK, label=label, **more)
+
+
+def on_axis(
+    axes: Axes,
+    sets: Sequence[Sequence[Any]],
+    height: float,
+    colour: str,
+    name: str = "{}",
+    **more: Any,
+) -> None:
+    """Mark sets of phases at a height, each with its number in a name."""
+    for index, ends in enumerate(sets):
+        low, high = map(float, ends)
+        axes.plot([low, high], [height] * 2, color=colour, lw=7, solid_capstyle="butt")
+        middle = (low + high) / 2
+        axes.text(middle, height, name.format(index), ha="center", va="center", **more)
 
 
 def proved_polygons(

@@ -2,26 +2,24 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from proofs.report.figures import style
 from proofs.report.figures.figure import Figure
-from proofs.report.figures.style import BLUE, sheet
+from proofs.report.figures.style import Drawing
 from proofs.report.subharmonics import EPSILON, NUS, SAMPLES, WINDOW, WINDOWS, displacement
 from proofs.trusted.kernel.context import Context
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure as Drawing
 
 
 def plot(proved: Context) -> Drawing:
     """Draw the displacement at the lowest and the highest amplitude, early and late: simulated."""
     del proved
-    drawing, all_axes = sheet(3.8, 2, 2, sharey="row", sharex="col")
+    drawing, all_axes = style.sheet(3.8, 2, 2, sharey="row", sharex="col")
     for row, nu in zip(all_axes, (NUS[0], NUS[-1]), strict=True):
         samples = displacement(nu, WINDOWS[-1] + WINDOW)
         for axes, first in zip(row, WINDOWS, strict=True):
             part = samples[first * SAMPLES : (first + WINDOW) * SAMPLES]
-            axes.plot([first + k / SAMPLES for k in range(len(part))], part, color=BLUE, lw=0.7)
+            axes.plot(
+                [first + k / SAMPLES for k in range(len(part))], part, color=style.BLUE, lw=0.7
+            )
             axes.set_title(rf"$\nu$ = {float(nu)}, $\varepsilon$ = {EPSILON}, simulated")
         row[0].set_ylabel("x / |p|")
     for axes in all_axes[1]:

@@ -3,31 +3,26 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
+from proofs.report.figures import style
 from proofs.report.figures.circle import on_circle
 from proofs.report.figures.figure import Figure, all_of, the
-from proofs.report.figures.style import BLUE, ORANGE, RED, proved_boxes, sheet
+from proofs.report.figures.style import Axes, Drawing
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.paper.s34_circle.absorption import Absorption
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure as Drawing
 
 _UNDER = -0.6  # where what is not counted is marked
 
 
 def plot(proved: Context) -> Drawing:
     """Draw what is proved: on the whole circle, and around [1.1, 1.76]."""
-    drawing, both = sheet(4.6, 2, 1)
+    drawing, both = style.sheet(4.6, 2, 1)
     for axes, ends in zip(both, ((0.0, math.tau), (1.06, 1.78)), strict=True):
         _draw(axes, proved)
         axes.set(xlim=ends, ylim=(_UNDER, 12.5), ylabel="impacts, at most", yticks=range(0, 13, 2))
     both[1].set_xlabel(r"$\phi$ [rad]")
-    handles, labels = both[0].get_legend_handles_labels()
-    drawing.legend(handles, labels, loc="outside lower center", ncols=4)
+    style.legend_below(drawing, both[0], 4)
     return drawing
 
 
@@ -37,10 +32,10 @@ def _draw(axes: Axes, proved: Context) -> None:
     axes.axhspan(_UNDER, 0, color="0.8", lw=0, zorder=0, label="not proved")
     arc, under = absorption.arc, (_UNDER, 0)
     sticks = (arc.start[1], arc.phase[0])
-    proved_boxes(axes, [(sticks, under)], ORANGE, "sticks at once, proved", lw=0)
-    proved_boxes(axes, bars(absorption), BLUE, "within n impacts, proved", lw=0)
+    style.proved_boxes(axes, [(sticks, under)], style.ORANGE, "sticks at once, proved", lw=0)
+    style.proved_boxes(axes, bars(absorption), style.BLUE, "within n impacts, proved", lw=0)
     never = [(step.phases, (_UNDER, 12)) for step in all_of(proved, NeverImpacts)]
-    proved_boxes(axes, never, RED, "no impact ever, proved", lw=0.6)
+    style.proved_boxes(axes, never, style.RED, "no impact ever, proved", lw=0.6)
 
 
 def bars(absorption: Absorption) -> list[tuple[tuple[float, float], tuple[float, int]]]:

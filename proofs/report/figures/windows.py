@@ -5,18 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from proofs.report.figures import style
 from proofs.report.figures.figure import Figure, the
-from proofs.report.figures.style import BLUE, GREY, PROVED, sheet
+from proofs.report.figures.style import Axes, Drawing
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Range, show
 from proofs.trusted.paper.s4_single.below import BelowWindows
 from proofs.trusted.paper.s4_single.windows import EtaWindows, NuWindows, Window
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure as Drawing
 
 _POINTS = 4000
 _WIDEST = 14.0  # the paper's eta
@@ -59,7 +56,7 @@ def _between(first: Range, last: Range, count: int = 40) -> list[float]:
 
 
 def _window(axes: Axes, x: list[float], y: list[float], label: str) -> None:
-    axes.plot(x, y, color=BLUE, lw=2.4, gid=PROVED, label=label, solid_capstyle="butt")
+    axes.plot(x, y, color=style.BLUE, lw=2.4, gid=style.PROVED, label=label, solid_capstyle="butt")
 
 
 def _named(axes: Axes, x: list[float], y: list[float], name: str, colour: str = "0.4") -> None:
@@ -72,13 +69,12 @@ def _named(axes: Axes, x: list[float], y: list[float], name: str, colour: str = 
 def plot_a(proved: Context) -> Drawing:
     """Draw figure 7a for both signs of nu: eta on a logarithmic axis."""
     above, below = the(proved, EtaWindows), the(proved, BelowWindows)
-    drawing, both = sheet(5.4, 2, 1, sharex=True)
+    drawing, both = style.sheet(5.4, 2, 1, sharex=True)
     late = [(1, *below.late)]
     _against_eta(both[0], above.nu, above.low, _numbered(above.ends))
     _against_eta(both[1], below.nu, below.low, [*_numbered(below.ends), *late])
     both[1].set(xlabel=r"$\eta$", xscale="log", xlim=(0.8 * float(above.low), _WIDEST))
-    handles, labels = both[0].get_legend_handles_labels()
-    drawing.legend(handles, labels, loc="outside lower center", ncols=2)
+    style.legend_below(drawing, both[0], 2)
     return drawing
 
 
@@ -92,7 +88,7 @@ def _against_eta(axes: Axes, nu: Fraction, low: Fraction, windows: Sequence[Wind
     etas = [least * (_WIDEST / least) ** (k / _POINTS) for k in range(_POINTS + 1)]
     for n, dashes in enumerate(_DASHES, start=1):
         phases = _candidates([(eta, amplitude) for eta in etas], n)
-        axes.plot(etas, phases, color=GREY, ls=dashes, lw=0.6, label=f"{_OTHER}: n = {n}")
+        axes.plot(etas, phases, color=style.GREY, ls=dashes, lw=0.6, label=f"{_OTHER}: n = {n}")
     label = _STABLE
     for n, first, last in windows:
         inside = _between(first, last, 40 if n <= _NAMED else 6)
@@ -100,7 +96,7 @@ def _against_eta(axes: Axes, nu: Fraction, low: Fraction, windows: Sequence[Wind
         _window(axes, inside, phases, label)
         label = "_"
         if n <= _NAMED:
-            _named(axes, inside, phases, str(n), BLUE)
+            _named(axes, inside, phases, str(n), style.BLUE)
     axes.set_ylabel(r"$\phi$ [rad]")
     axes.set_title(
         rf"$\nu$ = {show(nu)}; the numbers are n = 1, ..., {max(n for n, *_ in windows)}"
@@ -110,7 +106,7 @@ def _against_eta(axes: Axes, nu: Fraction, low: Fraction, windows: Sequence[Wind
 def plot_b(proved: Context) -> Drawing:
     """Draw figure 7b."""
     windows = the(proved, NuWindows)
-    drawing, axes = sheet(3.6)
+    drawing, axes = style.sheet(3.6)
     eta, label = float(windows.eta), _OTHER
     sides = {1: windows.above, -1: windows.below}
     stable = {sign: {n for n, _, _ in side} for sign, side in sides.items()}
@@ -119,7 +115,7 @@ def plot_b(proved: Context) -> Drawing:
             amplitudes = [sign * (0.9 * (k + 1) / _POINTS) for k in range(_POINTS)]
             phases = _candidates([(eta, nu) for nu in amplitudes], n)
             if not all(map(math.isnan, phases)):
-                axes.plot(amplitudes, phases, color=GREY, lw=0.6, label=label)
+                axes.plot(amplitudes, phases, color=style.GREY, lw=0.6, label=label)
                 if n not in stable[sign]:
                     _named(axes, amplitudes, phases, str(n))
                 label = "_"
@@ -130,11 +126,11 @@ def plot_b(proved: Context) -> Drawing:
             phases = [solution(eta, nu, n)[0] for nu in inside]
             _window(axes, inside, phases, label)
             beside = {"xytext": (-4, 0), "textcoords": "offset points", "ha": "right"}
-            axes.annotate(str(n), (inside[20], phases[20]), **beside, color=BLUE)
+            axes.annotate(str(n), (inside[20], phases[20]), **beside, color=style.BLUE)
             label = "_"
     axes.set(xlabel=r"$\nu$", ylabel=r"$\phi$ [rad]", xlim=(-0.9, 0.9))
     axes.set_title(rf"$\eta$ = {show(windows.eta)}; the numbers are n")
-    drawing.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    style.legend_below(drawing, axes, 2)
     return drawing
 
 

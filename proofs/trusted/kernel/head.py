@@ -175,9 +175,8 @@ def require_periods(
                 change = plus(change, period, -_multiple(change, period))
             if not forms.is_zero(change):
                 variable = formulas.variables[circle.place]
-                texts = dict(zip(formulas.roots, map(str, formulas.trees), strict=False))
-                which = f"{texts[before]} is" if before in texts else "the formulas are"
-                raise reader.fail(f"{which} not proved to respect the period of {variable}")
+                what = dict(zip(formulas.roots, formulas.trees, strict=False)).get(before, "a part")
+                raise reader.fail(f"{what} is not proved to respect the period of {variable}")
 
 
 def _multiple(value: Polynomial, period: Polynomial) -> int:

@@ -3,16 +3,15 @@
 import json
 import re
 import sys
-from contextlib import contextmanager
 
 import pytest
 
 from proofs.benchmark import __main__ as command
-from proofs.benchmark import horseshoe, page
+from proofs.benchmark import horseshoe
 from proofs.benchmark.__main__ import main
 from proofs.benchmark.curves import Curve, Point
 from proofs.benchmark.diagrams import Diagram
-from proofs.benchmark.measure import Row, ratio_row
+from proofs.benchmark.measure import Row
 from proofs.benchmark.page import Section
 
 MISSED, REACHED = Row("ratio", "5.00", "<= 4", False), Row("loss|", "1e-30", "< 1e-20", True)
@@ -37,12 +36,6 @@ def test_an_absent_peer_and_a_failing_process_are_reported(monkeypatch, capsys):
     monkeypatch.undo()
     with pytest.raises(ChildProcessError, match="exit status 3"):
         horseshoe.process(["-c", "raise SystemExit(3)"])
-
-
-def test_a_ratio_is_of_the_median_of_pairs():
-    row = ratio_row("a / b", [2.0, 9.0, 3.0], [1.0, 3.0, 1.0], 3)
-    assert row.samples["ratios"] == [2.0, 3.0, 3.0] and row.reached
-    assert ratio_row("a / b", [4.0], [1.0], 3).reached is False
 
 
 @pytest.mark.parametrize(
@@ -94,33 +87,3 @@ def test_without_matplotlib_the_page_has_no_pictures(monkeypatch, tmp_path, caps
     assert main(["--out", str(tmp_path)]) == 0
     assert "no pictures" in capsys.readouterr().err
     assert not list(tmp_path.glob("*.svg"))
-
-
-@pytest.mark.slow
-def test_a_report_is_never_half_new_and_the_page_comes_last(monkeypatch, tmp_path, capsys):
-    (tmp_path / "benchmark.md").write_text("the page before")
-    measured(monkeypatch, Section("First", "About.", [REACHED], [diagram()]))
-    monkeypatch.setattr("proofs.benchmark.page.svg", lambda one: 1 / 0)
-    with pytest.raises(ZeroDivisionError):
-        main(["--out", str(tmp_path)])
-    written = []
-    monkeypatch.setattr("proofs.benchmark.page.svg", lambda one: "<svg/>")
-
-    @contextmanager
-    def noting(folder):
-        yield lambda name, content: written.append(name)
-
-    monkeypatch.setattr(page, "writing", noting)
-    assert main(["--out", str(tmp_path)]) == 0
-    assert written == ["benchmark-curves.svg", "benchmark.json", "benchmark.md"]
-
-    def full(file):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.undo()
-    measured(monkeypatch, Section("First", "About.", [REACHED], [diagram()]))
-    monkeypatch.setattr("os.fsync", full)
-    with pytest.raises(SystemExit) as stopped:
-        main(["--out", str(tmp_path)])
-    assert stopped.value.code == 2 and "No space left" in capsys.readouterr().err
-    assert (tmp_path / "benchmark.md").read_text() == "the page before"

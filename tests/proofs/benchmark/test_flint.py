@@ -53,23 +53,3 @@ def test_what_is_not_so_is_not_decided(monkeypatch, name, value, lost):
     found = flint_job.verdicts()
     assert {claim for claim, verdict in found.items() if verdict == "UNDECIDED"} == lost
     assert all(found[claim] == KNOWN[claim] for claim in KNOWN.keys() - lost)
-
-
-def test_grazing_launches_and_two_windows_are_no_single_crossing(monkeypatch):
-    assert flint_job.Flight(Fraction("1.17"), Fraction("1.2")).impact() is None
-    with pytest.raises(ArithmeticError):
-        flint_job.at(Fraction("-1"))  # sticks
-    flight = flint_job.Flight(*flint_job.LEFT)
-    (window,) = flight.windows()
-    assert flight.impact() is not None
-    monkeypatch.setattr(flint_job.Flight, "windows", lambda self: [window, (56.0, 57.0)])
-    assert flight.impact() is None
-
-
-def test_balls_that_may_meet_a_phase_do_not_miss_it():
-    target = flint_job.ball(*flint_job.WHOLE)
-    for turns in (0, 4, 100):
-        whole = turns * flint_job.TURN
-        for phase, missed in (("1.10", True), ("1.12", False), ("1.31", False), ("1.33", True)):
-            assert flint_job.misses(whole + flint.arb(phase), target) is missed
-    assert not flint_job.misses(flint.arb(4, 2), target)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from proofs.benchmark import operations
-from proofs.benchmark.operations import ARRAY, _pairs, _task
+from proofs.benchmark.operations import ARRAY
 from proofs.benchmark.peers import FLINT, IV, OURS
 
 flint = pytest.importorskip("flint")
@@ -39,23 +39,3 @@ def test_all_libraries_do_the_same_work(name):
         for (low, high), (least, most) in zip(pairs, found[OURS], strict=True):
             assert low <= most and least <= high, library
             assert abs(low - least) <= max(high - low, most - least), library
-
-
-@pytest.mark.parametrize("pair", list(_pairs()), ids=str)
-def test_pairs_are_the_same_work(pair):
-    """What both find meets, and is about as wide."""
-    with flint.ctx.workprec(pair.bits):
-        ours, theirs = (flat(_task(pair, name)()) for name in pair[:2])
-    if pair.at_ends:
-        lows, highs = theirs[: pair.length], theirs[pair.length :]
-        theirs = [(low[0], high[1]) for low, high in zip(lows, highs, strict=True)]
-    assert len(ours) == len(theirs) == pair.length
-    assert all(a[0] <= b[1] and b[0] <= a[1] for a, b in zip(ours, theirs, strict=True))
-    widths = [b - a for a, b in ours]
-    assert all(w / 2 < hi - lo < 3 * w for w, (lo, hi) in zip(widths, theirs, strict=True))
-
-
-def test_a_long_name_of_a_precision_is_heeded():
-    names = operations.operands(OURS, 333, COUNT)
-    (found, *_) = eval(operations.statement("exp", OURS), names)
-    assert (found.inf.denominator.bit_length()) > 200

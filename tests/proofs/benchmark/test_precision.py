@@ -13,12 +13,11 @@ from xml.etree import ElementTree
 import pytest
 
 from intervals import Undecided
-from proofs.benchmark import codac_server, curves, horseshoe, peers, slopes, tasks
+from proofs.benchmark import codac_server, horseshoe, peers, slopes, tasks
 from proofs.benchmark.__main__ import main
-from proofs.benchmark.curves import Budget, Curve, Point
-from proofs.benchmark.diagrams import Diagram, style, svg
-from proofs.benchmark.peers import CODAC, FLINT, IV, OURS, PEERS, arithmetic
-from proofs.trusted.equations import clock, gap, launch
+from proofs.benchmark.curves import Curve, Point
+from proofs.benchmark.diagrams import Diagram, svg
+from proofs.benchmark.peers import CODAC, FLINT, IV, OURS, arithmetic
 
 DOMAINS = tasks.DOMAINS
 
@@ -29,16 +28,6 @@ def curve_of(errors, **options):
 
 
 # -- curves ----------------------------------------------------------------------------------------
-
-
-def test_a_fit_uses_the_last_four_points_above_the_floor():
-    errors = [5.0, 5.0, 1.0, 0.25, 2.0**-4, 2.0**-6, 1e-12, 1e-12]
-    assert curve_of(errors, floor=1e-14).order() == pytest.approx(-2.0)
-    assert curve_of(errors[:2]).order() is None
-    assert curve_of([1.0, None, 0.5, None, 0.25]).order() == pytest.approx(-0.5)
-    points = [Point(d, 10.0**-d, [d**1.5, 99.0, d**1.5]) for d in (10.0, 20.0, 40.0)]
-    timed = Curve("work", "way", "digits", points=points)
-    assert timed.order() == pytest.approx(1.5) and "time ~ digits^1.50" in timed.row().measured
 
 
 def test_rows_judge_orders_and_enclosures():
@@ -54,71 +43,7 @@ def test_rows_judge_orders_and_enclosures():
     assert "boxes 2: 3.1e+01" in missed.row().measured  # the worst of what is not proved
 
 
-@pytest.fixture
-def passing(monkeypatch):
-    """Time that passes only where a task says so."""
-    now = [0.0]
-    monkeypatch.setattr(curves, "perf_counter", lambda: now[0])
-    monkeypatch.setattr("proofs.benchmark.measure.perf_counter", lambda: now[0])
-    return now
-
-
-def way(passing, calls, name, seconds, sizes=(1, 4, 16, 64)):
-    def run(size):
-        if seconds(size) is None:
-            raise Undecided("too wide")
-        calls.append(name)
-        passing[0] += seconds(size)
-        return 1 / size
-
-    return Curve("work", name, "boxes", sizes, run)
-
-
-def test_ways_are_measured_in_turn_and_undecided_ones_are_kept(passing):
-    calls = []
-    first = way(passing, calls, "a", lambda n: None if n == 1 else 0.01, (1, 2))
-    second = way(passing, calls, "b", lambda n: 0.02, (1, 2))
-    curves.sweep([first, second], Budget(2, 0.1))
-    assert first.points[0] == Point(1, None, [], "too wide")
-    assert second.points[1].seconds == pytest.approx([0.02] * 3)
-    assert "".join(calls) == "bbbb" + "aabb" + "abab"
-
-
-def test_slow_ways_are_not_repeated_and_leave_if_they_grow(passing):
-    growing, faster, flat, long = (
-        way(passing, [], "", seconds)
-        for seconds in (lambda n: 0.04 * n, lambda n: 0.002 * n**2, lambda n: 0.2, lambda n: 1.1)
-    )
-    curves.sweep([growing, faster, flat, long], Budget(3, 0.1))
-    lengths = [
-        [len(point.seconds) for point in one.points] for one in (growing, faster, flat, long)
-    ]
-    assert lengths == [[4, 4], [4, 4, 1], [4, 4, 4, 4], [1]]
-
-
-def test_ratios_are_of_pairs_at_the_largest_common_size():
-    own = [Point(1, 1.0, [9.0]), Point(4, 1.0, [2.0, 4.0])]
-    theirs = [Point(1, 1.0, [9.0]), Point(4, 1.0, [6.0, 20.0]), Point(9, 1.0, [1.0])]
-    ways = {"ours": own, FLINT: theirs, IV: theirs[2:], "another": theirs}
-    some = [Curve("w", f"form, {name}", "boxes", points=ways[name]) for name in ways]
-    (row,) = curves.beside(some)
-    assert row.samples["ratios"] == [3.0, 5.0] and FLINT in row.name
-
-
 # -- the slopes ------------------------------------------------------------------------------------
-
-
-def test_the_series_of_the_slope_is_that_of_the_truth_nearby():
-    of, phase, step = arithmetic(OURS, 300), Fraction("1.12"), Fraction(1, 2**20)
-    phi = of.point(phase)
-    about = float(tasks.truth(phase).flight[0])
-    found = slopes.coefficients(of, phi, slopes.thin_time(of, phi, about), 4)
-    assert abs(found[0].mid - tasks.truth(phase).slope[0]) < Fraction(1, 10**80)
-    beside = tasks.truth(phase + step).slope[0]
-    value, bound = sum(c.mid * step**k for k, c in enumerate(found)), 10**6 * step**5
-    assert abs(value - beside) < bound
-    for k in (1, 2, 3, 4):  # without any of the terms it is not
-        assert abs(value - found[k].mid * step**k - beside) > bound
 
 
 def test_the_truth_is_that_of_another_transcription():
@@ -175,25 +100,6 @@ def test_a_wrong_bracket_or_grid_is_not_proved(library):
     for grid in ([*work.grid, impact + 0.1], beyond, work.grid[-1:]):
         with pytest.raises(Undecided):
             slopes.exclude(of, boxes, grid)
-
-
-def test_where_the_mass_leaves_the_table_there_is_no_impact_time():
-    start, low, high = launch(-1, 0.2121, -0.2, 1.11), 26.0, 27.5
-    while low < (middle := (low + high) / 2) < high:  # the next zero of the gap, upward
-        rising = gap(start, clock(0.2121, middle)) < 0
-        low, high = (middle, high) if rising else (low, middle)
-    of = arithmetic(OURS, 100)
-    impact = float(tasks.truth(Fraction("1.11")).flight[0])
-    assert slopes.thin_time(of, of.point(Fraction("1.11")), impact).wid < 1e-20
-    with pytest.raises(Undecided):
-        slopes.thin_time(of, of.point(Fraction("1.11")), low)
-
-
-def test_monotonicity_is_proved_and_not_taken_for_granted():
-    work, of = tasks.work((Fraction(3), Fraction("3.01")), 8), arithmetic(OURS, 53)
-    slopes.bounds(of, of, work, 1)
-    with pytest.raises(Undecided, match="f'' > 0"):  # it changes its sign there
-        slopes.bounds(of, of, work, slopes.MONOTONE)
 
 
 FAKE = """
@@ -254,11 +160,6 @@ def test_enclosures_of_flights_that_exclude_the_truth_show():
         tasks.deviation([*late[:-1], None])
 
 
-def test_an_ode_solver_finds_the_flights_where_it_sees_them():
-    pytest.importorskip("scipy")
-    assert tasks.solved("DOP853", 1e-13) < 1e-10
-
-
 # -- diagrams and the command ----------------------------------------------------------------------
 
 
@@ -278,20 +179,6 @@ def test_a_diagram_shows_what_was_measured():
     panels = svg(Diagram("d", "A title", curves=forms, panels=True))
     for words in ("natural", "Taylor 2", OURS, FLINT):
         assert panels.count(f"<!-- {words} -->") == 1
-
-
-def test_what_is_across_is_the_error_or_its_digits():
-    point, none = Point(3.0, 1e-7, [1.0]), Point(3.0, None, [], "too wide")
-    for against, places in {"error": (1e-7, 0), "digits": (7, 0)}.items():
-        of = Diagram("d", "A title", "across", against)
-        assert [of.place(one) for one in (point, none)] == pytest.approx(places)
-    assert Diagram("d", "A title", least=1e-6).place(point) == 0
-
-
-def test_a_library_has_the_same_colour_everywhere():
-    known = {style(f"{form}{name}") for form in ("", "natural, ") for name in PEERS}
-    assert len(known) == len(PEERS) and None not in known
-    assert style(OURS) is style("certified map (search.image)") is None
 
 
 @pytest.mark.slow

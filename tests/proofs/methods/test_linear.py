@@ -44,13 +44,6 @@ def test_the_two_shift():
     assert "(0.21, 0), (0, 1)" in cone
 
 
-def test_strips_that_are_covered_with_no_margin():
-    """The edges |x| = 3/5, 1 of the strips go to x = -1, 1: no strict covering."""
-    file, sets = horseshoe("1/5")
-    with pytest.raises(Undecided):
-        file.covers("F", 1, sets[0], sets[1])
-
-
 def test_a_cone_of_the_wrong_form():
     """5 > 1 > 1/4: 4 q_1^2 - q_2^2 increases along differences of orbits, the others do not."""
     file, sets = horseshoe()

@@ -151,14 +151,6 @@ def test_the_logistic_map_by_inverse_branches(digits):
             assert high - low <= abs(multiplier) * mpf(10) ** -digits
 
 
-def test_two_precisions_agree():
-    words = Words.rotations("0010111")
-    rough, fine = (periodic_points(LOGISTIC, words, digits) for digits in (8, 60))
-    for coarse, narrow in zip(rough, fine, strict=True):
-        assert coarse.point[0] <= narrow.point[0] and narrow.point[1] <= coarse.point[1]
-        assert narrow.point[1] - narrow.point[0] <= Fraction(1, 10**60)
-
-
 def test_corrections_are_those_of_exact_arithmetic():
     slopes = [Fraction(7, 2), Fraction(-5, 2), Fraction(3)]
     defects = [Fraction((7 * i) % 5 - 2, 10**6) for i in range(3)]
@@ -220,14 +212,6 @@ def test_poor_candidates_lie_in_the_domains_and_the_points_are_found_from_them()
         assert row.point[0] <= exact(pieces, row.word)[0] <= row.point[1]
 
 
-def test_no_candidates():
-    lost = Pieces(
-        LOGISTIC.domains, LOGISTIC.expansion, [lambda x: x * float("nan")] * 2, LOGISTIC.derivatives
-    )
-    with pytest.raises(Undecided, match="no candidates"):
-        periodic_points(lost, Words.of_length(2), 10)
-
-
 @pytest.mark.parametrize(("length", "alphabet"), [(1, "01"), (6, "01"), (12, "01"), (4, "012")])
 def test_words_and_their_orbits(length, alphabet):
     words = Words.of_length(length, alphabet)
@@ -240,10 +224,3 @@ def test_words_and_their_orbits(length, alphabet):
     necklaces = sum(k ** gcd(i, length) for i in range(length)) // length  # Burnside
     assert len(words.cycles) == necklaces
     assert sorted(i for cycle in words.cycles for i in cycle) == list(range(k**length))
-
-
-def test_rotations_begin_with_the_word():
-    assert Words.rotations("0010").texts == ("0010", "0100", "1000", "0001")
-    assert Words.rotations("0101").texts == ("0101", "1010")
-    assert Words.rotations("111").texts == ("111",)
-    assert [len(c) for c in Words.rotations("0101").cycles] == [2]

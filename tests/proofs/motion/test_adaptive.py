@@ -1,33 +1,25 @@
 """Precision where it is needed, part by part and box by box, against 250 digits of mpmath."""
 
-import json
-import math
 from dataclasses import replace
 from fractions import Fraction
-from itertools import pairwise
 
-import numpy as np
 import pytest
 from mpmath import mp, mpf
 
-from intervals import Undecided
-from proofs.horseshoe import main as horseshoe
-from proofs.motion.brackets import impact_time, impact_times, last_positive
+from proofs.motion.brackets import impact_time, impact_times
 from proofs.motion.branch import Branch
 from proofs.motion.candidate import next_impact
-from proofs.motion.covering import bits_needed, cover_by, steps_for
+from proofs.motion.covering import bits_needed, cover_by
 from proofs.motion.system import System
-from proofs.motion.witness import FLOATS, FlightBox, Sticks, Unsettled, locate, march
+from proofs.motion.witness import FLOATS, FlightBox, Unsettled, locate, march
 from proofs.search.image import Image, image
 from proofs.stress.grazing import graze
 from proofs.trusted import flights as trusted
 from proofs.trusted.certificate import Reader
-from proofs.trusted.equations import gap
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import COVER_BITS
 from proofs.trusted.parameters import PAPER as FACTS
-from tests.calls import calls
 from tests.proofs.trusted.paper import reference
 
 PAPER = System(Fraction("0.2121"), Fraction("-0.2"))
@@ -123,21 +115,6 @@ def test_precision_grows_where_it_must():
     assert needed[-1] > needed[1] > COVER_BITS
 
 
-def test_times_after_thin_phases_are_no_longer_than_a_file_takes():
-    low = Fraction("1.11")
-    (part,) = cover_by(flights(PAPER, low, low + Fraction(1, 10**500)))
-    assert part.transversal and max(len(str(time)) for time in part.times) < 3000
-    early, late = impact_times(part.flights.gap_of(COVER_BITS + 300), part.windows[0], 300)
-    assert part.windows[0][0] <= early < late <= part.windows[0][1]
-
-
-@pytest.mark.slow
-def test_width_is_not_answered_with_precision():
-    # a grazing phase in the interval: no precision helps
-    with pytest.raises(Undecided, match="grazing near"):
-        cover_by(flights(PAPER, Fraction("1.199"), Fraction("1.2")))
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("exponent", [3, 25, 40])
 def test_both_sides_of_the_separation_phase(exponent):
@@ -149,82 +126,6 @@ def test_both_sides_of_the_separation_phase(exponent):
     assert before.dwell[0] - rounding <= distance <= before.dwell[1] + rounding
     assert abs(after.flight[0] - before.flight[0]) < 5 * distance + Fraction(1, 10**18)
     assert 0 < after.slope[0] < 10 * distance
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("exponent", [5, pytest.param(20, marks=pytest.mark.long)])
-def test_an_interval_across_the_separation_phase_is_no_onset(exponent):
-    distance = Fraction(1, 10**exponent)
-    found = image(PAPER, (SEPARATION - distance, SEPARATION + distance))
-    assert "stick" in found.reason
-    expected = image(PAPER, (SEPARATION + distance,) * 2, digits=12).flight
-    assert any(t[0] <= expected[0] and expected[1] <= t[1] for t, _ in found.images)
-    with pytest.raises(Undecided, match="the phase at which sticking begins"):
-        image(PAPER, (ONSET - distance, ONSET + distance))
-
-
-def test_sticking_is_no_reason_of_its_own():
-    # what sticks dwells: `image` never lets Sticks through, however near the ends of the arc
-    for exponent in (8, 45, 120):
-        for point in (ONSET + Fraction(1, 10**exponent), SEPARATION - Fraction(1, 10**exponent)):
-            assert image(PAPER, (point, point), digits=10).sticking
-            with pytest.raises(Sticks):
-                locate(flights(PAPER, point), floats=False)
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("right", [("3.379", "3.3791"), ("3.379353", "3.379354")])
-def test_the_checker_follows_next_to_the_onset_of_sticking(right, tmp_path, capsys):
-    sets = ["--left", "3.3", "3.31", "--right", *right]
-    assert horseshoe(["--only", "H1", "H2", "H3", *sets, "--out", str(tmp_path)]) == 0
-    said = capsys.readouterr().out
-    assert said.count("REFUTED ") == 2 and "checker: accepted" in said
-    entry = json.loads((tmp_path / "horseshoe.json").read_text())["claims"][1]
-    assert entry["verdict"] == "VERIFIED"
-    low, high = (Fraction(x) for x in entry["quantities"]["slope_min_I1"].values())
-    slopes = [short_flight(PAPER, x, ONSET - x)[1] for x in map(Fraction, right)]
-    assert low <= min(slopes)
-    assert -Fraction(5, 2) < low <= high < -Fraction(19, 10)
-
-
-# -- where nothing helps -------------------------------------------------------------------------
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("eta", ["1", pytest.param("0.999999999999", marks=pytest.mark.long)])
-def test_touches_without_end_are_refused_after_one_cut(eta):
-    system, phases = System(Fraction(eta), Fraction("-0.2")), (Fraction("1.11"), Fraction("1.15"))
-    horizon = Fraction(430)  # 68 turns
-    with calls(gap) as counts, pytest.raises(Unsettled) as refused:
-        image(system, phases, horizon=horizon)
-    assert refused.value.hopeless
-    with calls(gap) as once, pytest.raises(Unsettled):
-        march(flights(system, *phases), COVER_BITS, horizon, steps_for(phases))
-    assert 0 < counts["gap"] < 3 * once["gap"]
-
-
-def test_some_open_windows_are_not_hopeless():
-    system = System(Fraction(1), Fraction("-0.2"))
-    with pytest.raises(Unsettled) as refused:
-        march(flights(system, Fraction("1.11"), Fraction("1.15")), COVER_BITS, Fraction(50))
-    assert not refused.value.hopeless
-
-
-@pytest.mark.parametrize("nu", ["1e5", "-1e5", "1e12", "-1e300"])
-def test_the_search_ends_where_rounding_is_large(nu):
-    for phase in (0.3, 1.11, 2.5, 4.0):
-        found = next_impact(System(Fraction("0.2121"), Fraction(nu)), phase)
-        if found is None:
-            continue
-        time, _, slope = found
-        assert 0 < time < 1000 and np.isfinite(slope)
-        gaps = float_gap(float(Fraction(nu)), phase, np.array([0.999 * time, 1.001 * time]))
-        assert gaps[0] > 0 > gaps[1]
-
-
-def float_gap(nu, phase, t):
-    sign = 1 if nu > 0 else -1
-    return sign * reference.left_side_10(0.2121, nu, phase, t, np.sin, np.cos)
 
 
 # -- next to grazing -----------------------------------------------------------------------------
@@ -249,15 +150,6 @@ def test_what_is_found_next_to_grazing_is_what_the_checker_finds(exponent, side)
     assert (found.proved().windows, found.proved().transversal) == (found.windows, True)
 
 
-def test_both_sides_of_grazing_are_far_apart():
-    eta, nu, phase = graze(2)
-    (before,), (after,) = (
-        locate(flights(System(eta, nu), phase + side * Fraction(1, 10**30))).windows
-        for side in (-1, 1)
-    )
-    assert before[1] < after[0] - 1 or after[1] < before[0] - 1
-
-
 @pytest.fixture
 def asked(monkeypatch):
     """(bits, time) of each gap that is evaluated."""
@@ -274,17 +166,6 @@ def asked(monkeypatch):
 
     monkeypatch.setattr(FlightBox, "gap_of", gap_of)
     return found
-
-
-@pytest.mark.parametrize("floats", [True, False])
-def test_only_the_open_window_is_looked_at_again(floats, asked):
-    eta, nu, phase = graze(2)
-    found = locate(flights(System(eta, nu), phase - Fraction(1, 10**20)), floats=floats)
-    finer = [time for bits, time in asked if bits == found.bits and time > 0]
-    assert found.bits > 2 * COVER_BITS
-    assert min(finer) > found.times[2]  # what was excluded is not asked again
-    beginning = [time for bits, time in asked if time <= found.times[2]]
-    assert len(beginning) < 24
 
 
 @pytest.mark.parametrize("single", [True, False])
@@ -307,20 +188,6 @@ def test_unsettled_knows_where_the_gap_is_positive(single, asked):
     assert all(gap_of((time, time), 0).lo > 0 for time in excluded)
 
 
-@pytest.mark.parametrize("shape", [lambda x: x, math.sinh, lambda x: math.atan(1e3 * x)])
-def test_the_last_positive_value_is_found_in_few_steps(shape):
-    for last in (0, 1, 700, 2**40 - 2):
-        asked = []
-
-        def value(k, last=last, asked=asked):
-            asked.append(k)
-            return shape((last + 0.5 - k) / 2**40)
-
-        assert last_positive(value, 2**40) == last
-        assert len(asked) < 60
-    assert last_positive(lambda k: -1.0 - k, 2**40) == 0
-
-
 @pytest.mark.parametrize("bits", [FLOATS, COVER_BITS])
 def test_a_window_is_narrowed_to_the_impacts_of_all_launches(bits):
     box = flights(PAPER, Fraction("1.11"), Fraction("1.12"))
@@ -332,29 +199,6 @@ def test_a_window_is_narrowed_to_the_impacts_of_all_launches(bits):
     last, gap_of = (window[1] - window[0]) / 2**16, box.gap_of(2 * COVER_BITS)
     signs = [gap_of((x, x), 0) for x in (low, low + last, high, high - last)]
     assert signs[0].lo > 0 >= signs[1].lo and signs[2].hi < 0 <= signs[3].hi
-
-
-def test_windows_are_one_piece_and_parts_keep_what_is_excluded_for_the_whole():
-    phases, thin = (Fraction("1.21"), Fraction("1.27")), Fraction(1, 50)
-
-    def width(found):
-        return found.flights.phases[1] - found.flights.phases[0]
-
-    with calls(gap) as cut:
-        found = cover_by(
-            flights(PAPER, *phases),
-            lambda found: found.transversal and width(found) < thin,
-            obstacle="width",
-        )
-    assert len(found) == 4
-    with calls(gap) as afresh:
-        alone = [march(x.flights, FLOATS, finest=steps_for(x.flights.phases)) for x in found]
-    assert 0 < cut["gap"] < afresh["gap"]
-    for part, other in zip(found, alone, strict=True):
-        assert set(part.windows) <= set(pairwise(part.times))
-        assert abs(part.windows[0][1] - other.windows[0][1]) < Fraction(1, 2)
-        witness = {"phases": in_json(part.flights.phases), "times": in_json(part.times)}
-        assert trusted.first_impact(Context(FACTS), Reader(witness)).transversal
 
 
 def test_what_is_seen_and_not_proved_is_refused():

@@ -7,9 +7,8 @@ import flint
 import pytest
 from mpmath import mp, mpf
 
-from proofs.motion.witness import HORIZON, NoImpact
+from proofs.motion.witness import HORIZON
 from proofs.search.rebound import next_state
-from proofs.search.s33_rectangles import state_after
 from proofs.trusted.equations import closing, launch
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.oscillator import flight
@@ -135,30 +134,7 @@ def test_a_mass_does_not_come_from_inside_the_table(phi, gamma, possible):
             Next(*state)
 
 
-def test_other_side_of_the_table():
-    assert closing_speed(*single("1.11", "-0.42", nu="0.2")).hi < 0
-    assert closing_speed(*single("1.11", "0.42", nu="0.2")).lo > 0
-
-
 def test_a_box_that_contains_a_grazing_flight_has_no_smooth_image():
     sides = (ETA, ETA), (NU, NU), (Fraction("0.01"),) * 2
     with pytest.raises(Unproved):
         Next(flight(sides), ((Fraction("1.19"), Fraction("1.23")), RIGHT))
-
-
-def test_horizon():
-    with pytest.raises(NoImpact):
-        Next(*single("1.11", "-0.45", horizon=Fraction(20)))
-
-
-@pytest.mark.parametrize("state", STATES)
-def test_candidate(state):
-    eta, nu, epsilon, phi, gamma = map(float, state)
-    phase, velocity = state_after(eta, nu, epsilon, (phi, gamma))
-    found = Next(*single(*state[3:], state[2], *state[:2]))
-    assert abs(float(found.phase[0]) - phase) < 1e-7
-    assert abs(float(found.velocity[0]) - velocity) < 1e-7
-
-
-def test_candidate_of_an_impossible_state():
-    assert state_after(0.2121, -0.2, 0.01, (1.11, 0.42)) is None

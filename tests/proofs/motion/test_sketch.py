@@ -12,7 +12,7 @@ from proofs.motion.sketch import Sketch
 from proofs.motion.system import System
 from proofs.motion.witness import HORIZON
 from proofs.search.steps import Prover
-from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
+from proofs.trusted.kernel.arithmetic import Enclosure
 from proofs.trusted.kernel.gaps import falls, stays_up
 from proofs.trusted.parameters import PAPER
 
@@ -102,13 +102,3 @@ def test_a_sketch_that_is_wrong_is_not_believed(name, lie, job, monkeypatch):
     _, expected = JOBS[job](prover())
     monkeypatch.setattr(Sketch, name, lie)
     assert JOBS[job](prover())[1] == expected
-
-
-def test_floats_alone_conclude_nothing(monkeypatch):
-    """Where the checker's numbers are not asked, a lie ends without a conclusion."""
-    plain = Sketch.sincos
-    monkeypatch.setattr(Sketch, "sincos", lambda self: plain(self * Fraction("1.1")))
-    made = prover()
-    with pytest.raises(Unproved):
-        made._point(Fraction("1.13"), True)
-    assert "point-1" not in made.known

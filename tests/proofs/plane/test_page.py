@@ -1,16 +1,14 @@
 """The page of an atlas holds what the store says of each cell, to the letter, and little more."""
 
-import json
 import random
 import re
 from fractions import Fraction
-from itertools import islice
 
 import pytest
 
 from proofs.plane import picture, summary
 from proofs.plane.overlay import Overlay
-from proofs.plane.page import MOST, corner, data, page, said, size
+from proofs.plane.page import corner, data, page, said, size
 from proofs.plane.store import Row, opened, quarters
 from proofs.trusted.atlas import Region
 from proofs.trusted.numbers import show_range
@@ -85,15 +83,6 @@ def test_each_cell_is_told_as_it_is_stored(region, seed):
     assert list(told(data(region, there))) == want and len(want) > 99
 
 
-def test_places_in_the_grid_are_those_of_the_boxes():
-    for key in ("0/", "0/3", "0/31", "0/2103"):
-        (x, y), side, unit = corner(key, 5), size(key, 5), F(1, 32)
-        box = PLAIN.subject.at(PLAIN.sides(key))
-        assert box.eta[0] == F("0.15") + F("0.2") * x * unit
-        assert box.nu[0] == F("-0.4") + F("0.3") * y * unit
-        assert box.eta[1] - box.eta[0] == F("0.2") * side * unit
-
-
 def test_alike_sentences_are_one_pattern_and_equal_ones_are_there_once():
     at = "At eta in [0.15, 0.25], nu in [-0.4, -0.25], epsilon = 0: "
     row = Row("0/0", "VERIFIED", "", at + "C0 = [1.5, -2/3].")
@@ -103,20 +92,6 @@ def test_alike_sentences_are_one_pattern_and_equal_ones_are_there_once():
     held = data(PLAIN, there)
     assert len(there) > 900 and len(held["patterns"]) == 6
     assert len(held["said"]) == len(set(held["said"])) < len(there)
-
-
-@pytest.mark.slow
-def test_many_cells_are_a_small_page():
-    there = list(islice(cells(PLAIN, 8, random.Random(7), share=0.98), 5_000))
-    assert len(there) == 5_000
-    assert len(json.dumps(data(PLAIN, there), separators=(",", ":"))) < 120_000  # bytes
-    assert len(there) < MOST
-
-
-def test_kinds_that_nobody_named_have_words():
-    assert summary.words("EntropyBound").startswith("a full shift")
-    assert summary.words("SomeOtherThing") == "some other thing"
-    assert summary.kinds(["Zebra", "AtRest", "StableOrbit"]) == ["StableOrbit", "AtRest", "Zebra"]
 
 
 @pytest.mark.parametrize(

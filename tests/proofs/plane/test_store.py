@@ -9,7 +9,6 @@ import sqlite3
 import subprocess
 import sys
 import time
-import tracemalloc
 from concurrent.futures import Future
 from contextlib import closing
 from fractions import Fraction
@@ -245,64 +244,12 @@ def test_a_second_head_is_refused(tmp_path, capsys):
     assert "another run writes to" in done.stderr
 
 
-@pytest.mark.slow
-def test_a_store_may_be_read_while_a_run_ends(tmp_path):
-    """As the checker reads it, row by row; a run that begins meanwhile is refused in a line."""
-    assert atlas.main([*SMALL, "--depth", "1", "--quiet", "--out", str(tmp_path)]) == 1
-    with closing(sqlite3.connect(tmp_path / NAME)) as reader:
-        with opened(tmp_path, None) as store:
-            reading = reader.execute("SELECT key FROM cells")
-            assert reading.fetchone()
-            store.reopen(2)
-        assert len(reading.fetchall()) == 4
-    with closing(sqlite3.connect(tmp_path / NAME)) as reader:
-        assert reader.execute("PRAGMA journal_mode = DELETE").fetchone() == ("delete",)
-        reading = reader.execute("SELECT key FROM cells")
-        assert reading.fetchone()
-        with pytest.raises(Held, match="locked"), opened(tmp_path, None):
-            pass
-
-
 def test_what_is_no_store_is_one_line(tmp_path, capsys):
     (tmp_path / NAME).write_text("no store, and long enough for a header of a hundred bytes" * 9)
     with pytest.raises(SystemExit) as left:
         atlas.main([*SMALL, "--out", str(tmp_path)])
     said = capsys.readouterr().err
     assert left.value.code == 2 and "not a database" in said and said.count("\n") == 1
-
-
-def test_what_is_left_are_roots_and_quarters_that_are_not_there(tmp_path):
-    region = atlas.Region((F("0.9"), F("1.1")), (F("0.1"), F("0.2")), "horseshoe")
-    with opened(tmp_path, region) as store:
-        assert store.left() == [("0/", ""), ("1/", "")]
-        parent = Row("0/", SPLIT, sets="near")
-        store.put([parent, Row("0/2", "UNDECIDED", "", "why")])
-        assert store.left() == [(key, "near") for key in ("0/0", "0/1", "0/3")] + [("1/", "")]
-        store.put([Row(key, "UNDECIDED", "", "") for key in ("0/0", "0/1", "1/")])
-        assert store.left() == [("0/3", "near")]
-
-
-@pytest.mark.slow
-def test_memory_does_not_grow_with_the_number_of_cells(tmp_path):
-    """The head's own, of a region that is cut down to the depth everywhere."""
-
-    class Cuts(Here):
-        def submit(self, work, /, *data, **more):
-            _, depth, todo = data
-            ends = [SPLIT if len(key) - 2 < depth else "UNDECIDED" for key, _ in todo]
-            rows = [Row(key, end) for (key, _), end in zip(todo, ends, strict=True)]
-            return super().submit(lambda: rows)
-
-    region = atlas.Region((F("0.2"), F("0.3")), (F("0.1"), F("0.2")), "horseshoe")
-    peaks, counts = [], []
-    for depth in (4, 6):
-        with opened(tmp_path, region) as store:
-            tracemalloc.start()
-            counts.append(run(store, depth, (Cuts(), 1), 16))
-            peaks.append(tracemalloc.get_traced_memory()[1])
-            tracemalloc.stop()
-        (tmp_path / NAME).unlink()
-    assert counts == [341, 5461] and peaks[1] < 2 * peaks[0]
 
 
 @pytest.fixture
@@ -380,19 +327,6 @@ def test_a_store_of_another_version_is_refused_by_name(small, capsys):
     assert (small / NAME).read_bytes() == held
 
 
-def test_a_check_without_a_reader_blames_no_file(small, monkeypatch):
-    """Where output is not buffered, as by python -u: the file can be read, the line not written."""
-
-    def closed(text, stream=None):
-        if stream is None:
-            raise BrokenPipeError
-
-    atlas.main(["--out", str(small), "--lines"])
-    monkeypatch.setattr("proofs.check.say", closed)
-    with pytest.raises(BrokenPipeError):
-        check([str(small / LINES)])
-
-
 def test_the_checker_reads_few_lines_ahead_keeps_their_order_and_adds_up_their_work():
     read = []
     rows = (read.append(k) or k for k in range(10_000))
@@ -424,11 +358,3 @@ def test_orbits_with_restitution(tmp_path, capsys):
     assert "another region" in capsys.readouterr().err
     assert atlas.main(["--out", str(tmp_path), "--cell", "0.6", "-0.75"]) == 0
     assert "epsilon = 0.3: there is exactly one stable" in capsys.readouterr().out
-
-
-def test_a_region_across_resonance_is_cut_there(tmp_path, capsys):
-    region = ["--eta", "0.9", "1.1", "--nu", "-0.1", "0.1", "--ask", "horseshoe"]
-    assert atlas.main([*region, "--depth", "0", "--out", str(tmp_path)]) == 1
-    said = capsys.readouterr().out
-    assert "cut at eta = 1 and nu = 0" in said and "eta [0.9, 1]" in said
-    assert proved(tmp_path).cells == {"REFUTED": 2, "UNDECIDED": 2, LEFT_OUT: 1}

@@ -5,7 +5,6 @@ import re
 import pytest
 
 from proofs.report.dependencies import RESTS, falls_with, rests_on
-from proofs.report.findings import SECTIONS, section_of
 from proofs.report.graph import falling, svg
 from proofs.shell.ledger import CLAIMS
 from proofs.trusted.paper import find
@@ -18,23 +17,6 @@ def test_ids_are_claims_of_the_paper_and_no_argument_goes_in_a_circle():
             assert each in CLAIMS and not find(each).own
         assert rest.on and len(set(rest.on)) == len(rest.on)
         assert claim not in rests_on(claim)
-
-
-@pytest.mark.parametrize("claim", CLAIMS)
-def test_falls_with_is_rests_on_turned_round(claim):
-    assert falls_with(claim) == {other for other in CLAIMS if claim in rests_on(other)}
-
-
-def test_where_the_paper_says_it_begins_with_its_section():
-    for claim, rest in RESTS.items():
-        section = re.match(r"(A\.\d|\d(\.\d)?)[,:]", rest.where)
-        assert section, rest
-        own = section_of(find(claim))
-        assert section[1][0] == own[0] or section[1].startswith(own), claim
-
-
-def test_every_claim_has_a_section_of_the_paper():
-    assert {section_of(find(claim)) for claim in CLAIMS} == set(SECTIONS)
 
 
 def test_the_theorem_of_the_paper_falls_with_its_slope_bound():

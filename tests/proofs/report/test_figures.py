@@ -17,7 +17,6 @@ from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verify import premises
-from tests.once import report
 from tests.oracles.curves import amplitude, grazing
 from tests.oracles.sources import about_curves
 from tests.proofs.trusted.paper import reference
@@ -25,7 +24,7 @@ from tests.proofs.trusted.paper import reference
 pytest.importorskip("matplotlib")
 
 from proofs.__main__ import main as command
-from proofs.report.figures import curves, dossier, figures, names
+from proofs.report.figures import curves, dossier, figures
 from proofs.report.figures.__main__ import main
 from proofs.report.figures.figure import all_of
 from proofs.report.figures.style import PROVED, style, svg_of
@@ -126,13 +125,6 @@ def test_each_is_small_and_whole_and_names_nothing_twice(drawings):
         names.add(figure.name)
 
 
-def test_each_is_found_by_its_name_and_by_its_certificate():
-    assert [figure.name for figure in FIGURES] == names()
-    for certificate in {figure.certificate for figure in FIGURES}:
-        own = [figure for figure in FIGURES if figure.certificate == certificate]
-        assert figures(certificate) == own and names(certificate) == [each.name for each in own]
-
-
 def test_each_belongs_to_claims_the_first_decided_by_its_certificate(ledger):
     for figure in FIGURES:
         assert figure.claims and figure.shows.endswith(".")
@@ -218,24 +210,6 @@ def test_5_arc_landing_and_silence(drawings, ledger):
     assert sticks[0][0] == pytest.approx(arc, abs=1e-12)
 
 
-def test_6_bars_are_the_certificate_s(drawings):
-    within = report("circle").context.known["absorption-1"].within
-    for found in shapes(drawings["figure-6"]):
-        bars = [box(x) for x in found["within n impacts, proved"]]
-        wanted = [(part, n) for (low, high), n in within for part in on_circle(low, high)]
-        assert [(x, y[1]) for x, y in bars] == wanted
-        assert sum(high - low for (low, high), _ in bars) < math.tau - 2.6
-
-
-def test_7_windows_end_where_the_ledger_says(drawings, ledger):
-    for name, claim in (("figure-7a", "P5"), ("figure-7b", "P6")):
-        ends = sorted(float(x["lower"]) for x in ledger[claim]["quantities"].values())
-        lines = [x for axes in drawings[name].axes for x in axes.get_lines()]
-        lines = [x for x in lines if x.get_gid() == PROVED]
-        drawn = sorted(abs(line.get_xdata()[k]) for line in lines for k in (0, -1))
-        assert len(drawn) == len(ends) > 5 and drawn == pytest.approx(ends, abs=1e-8)
-
-
 def test_section_5_colours_are_the_eigenvalues(drawings):
     import numpy as np
 
@@ -271,49 +245,6 @@ def test_section_5_colours_are_the_eigenvalues(drawings):
         assert len(kinds) == 1 and kinds[0].startswith(wanted)
         seen.add(wanted)
     assert len(seen) == 4
-
-
-def test_section_5_orbits_are_those_whose_flights_stay_above_the_table(drawings):
-    import numpy as np
-
-    lines = {line.get_label(): line for line in drawings["section-5"].axes[0].get_lines()}
-    (green,) = (line for label, line in lines.items() if label.startswith("above it"))
-    (purple,) = (line for label, line in lines.items() if label.startswith("below it"))
-    times = np.linspace(1e-4, 2 * np.pi - 1e-4, 4000)
-    rng, seen = random.Random(6), set()
-    for k in range(400):
-        epsilon = rng.uniform(0.0005, 0.019) if k % 2 else rng.uniform(0.03, 0.97)
-        r = (1 - epsilon) / (1 + epsilon)
-        rho = rng.uniform(r * 2 * np.pi, 6.7 if k % 2 else 8.9)
-        height = math.sqrt(rho**2 - (r * 2 * np.pi) ** 2)
-        stays = []
-        for sine in (height, -height):  # rho sin psi
-            gap = times * (2 * np.pi - times) + sine * (1 - np.cos(times))
-            stays.append(bool((gap - r * 2 * np.pi * np.sin(times)).min() > 0))
-        bounds = [np.interp(epsilon, *line.get_data()) for line in (green, purple)]
-        if min(abs(rho - bound) for bound in bounds) < 0.03:
-            continue
-        low = epsilon < green.get_xdata().max()
-        assert stays == [not low or rho > bounds[0], not low and rho < bounds[1]]
-        seen.add(tuple(stays))
-    assert seen == {(True, False), (False, False), (True, True)}
-
-
-def test_three_sets_and_restitution(drawings):
-    (found,) = shapes(drawings["three-sets"])
-    polygons = found["graph of f, proved"]
-    low = min(x for polygon in polygons for x, _ in polygon)
-    high = max(x for polygon in polygons for x, _ in polygon)
-    region = numbers(step("chaos", "staying-set-3")["region"])
-    assert [low, high] == region[0]
-    for polygon in polygons:
-        xs = [x for x, _ in polygon]
-        middle = (min(xs) + max(xs)) / 2
-        assert inside(polygon, middle, image(middle))
-    (found,) = shapes(drawings["restitution"])
-    ((polygon,),) = found.values()
-    cells = step("persistence", "superstable-motion-1")["cells"]
-    assert max(x for x, _ in polygon) == max(float(Fraction(cell["epsilon"][1])) for cell in cells)
 
 
 def test_curves_of_grazing_pass_where_the_oracle_says():
@@ -355,8 +286,3 @@ def test_the_dossier_s_boxes_are_crossed_by_f_from_edge_to_edge(tmp_path):
             for phase in (mpf(float(end)) for end in domain)
         )
         assert ends[0] < target[0] and target[1] < ends[1]
-
-
-def test_without_a_proof_there_is_no_dossier():
-    with pytest.raises(Undecided):
-        dossier.plot(Context(PAPER))

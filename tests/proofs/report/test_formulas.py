@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 
 from proofs.report.formulas import latex as latex_of
 from proofs.report.formulas import lines, mathml
-from proofs.trusted.kernel.solutions import Expressions
 from proofs.trusted.kernel.trees import Variable, formula
 from proofs.trusted.kernel.values import Equal, Series, Value
 from tests.proofs.report.read_latex import Reader
@@ -94,17 +93,6 @@ def test_mathml_is_well_formed_and_names_every_symbol(text):
     shown = "".join(tree.itertext())
     for digits in re.findall(r"(?<![a-z\d])\d+", text):
         assert digits in shown
-
-
-def test_expressions_stand_below_each_other():
-    found = Expressions(
-        (("j11", formula("-(a*epsilon + 2)/2")), ("lam", formula("-c"))),
-        (Equal.read("lam + c", "0"),),
-    )
-    assert lines(found) == [
-        r"j_{11} = \frac{-(a \varepsilon + 2)}{2}",
-        rf"{latex('lam')} = -c",
-    ]
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ import pytest
 from proofs.report import __main__ as command
 from proofs.report import theorem as _page
 from proofs.report.differences import facts, marked
-from proofs.report.inline import inlined, shortened
+from proofs.report.inline import inlined
 from proofs.report.layout import enclosure, enumerated, percents, sentences
 from proofs.report.ledger import ledger
 from proofs.report.theorem import sources, template, theorem
@@ -123,17 +123,6 @@ def test_markdown_has_every_statement_once_and_no_broken_link(found):
             assert not isinstance(part, str) or markdown(part) in text
 
 
-UNSOURCED = {"", "def", "classical"}
-
-
-@pytest.mark.slow
-def test_every_sentence_of_the_theorem_has_a_tag_that_names_something(found):
-    known = sources(found)
-    for tag, text in template():
-        assert tag in UNSOURCED or tag in known, (tag, text[:60])
-        assert tag or not text or text.startswith("#")
-
-
 def test_a_sentence_without_a_tag_is_refused(monkeypatch):
     monkeypatch.setattr(_page, "_LINE", re.compile(r"@(def) (.+)"))  # no other tag is one
     with pytest.raises(ValueError, match="without a tag"):
@@ -225,24 +214,6 @@ def test_what_is_not_proved_is_not_printed(small, name, old, new, status, capsys
     told = capsys.readouterr()
     assert (told.out + told.err).count("\n") == 1
     assert not (small / "index.html").exists() and not (small / "ledger.md").exists()
-
-
-def test_without_the_packages_the_markdown_is_written_and_the_rest_said(small, monkeypatch, capsys):
-    monkeypatch.setattr(command, "missing", lambda: ["jinja2"])
-    assert command.main(["--out", str(small)]) == 1
-    assert "jinja2 missing" in capsys.readouterr().out
-    assert (small / "ledger.md").is_file() and not (small / "index.html").exists()
-
-
-@pytest.mark.parametrize(
-    "path, short",
-    [
-        ("M 1 2\nL 3.5 -4\nL 5 6\nz\nM 0 0\nL 1 1", "M1 2 3.5 -4 5 6zM0 0 1 1"),
-        ("M 1 2\nL 3 4\nC 1 1 2 2 3 3\nL 9 9", "M1 2L3 4C1 1 2 2 3 3L9 9"),
-    ],
-)
-def test_shorter_paths_are_the_same(path, short):
-    assert shortened(path) == short
 
 
 @pytest.mark.slow

@@ -4,8 +4,6 @@ import cmath
 import math
 from fractions import Fraction
 
-import pytest
-
 from proofs.report import subharmonics
 
 
@@ -35,10 +33,3 @@ def test_elastic_impacts_may_repeat_after_eight_periods_without_a_line_below_the
     assert max(abs(a - b) for a, b in zip(window[64:], window, strict=False)) > 0.1
     whole = samples[: 32 * 64]
     assert below(whole) < 1e-3 and amplitude(whole, Fraction(9, 8)) > 0.1
-
-
-def test_samples_are_the_flight_after_the_first_impact():
-    samples = subharmonics.displacement(Fraction(-1, 2), 1)
-    for k, value in enumerate(samples[:40]):
-        t = 2 * math.pi * k / 64
-        assert value == pytest.approx(math.cos(t) - 0.95 * math.sin(t), abs=1e-12)

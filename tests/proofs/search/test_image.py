@@ -91,13 +91,6 @@ def test_a_sticking_phase_leaves_at_the_separation_phase(eta, nu, phi):
     assert holds(found.dwell, (leave - p) % (2 * reference.mp.pi), mpf(10) ** -40)
 
 
-def test_sticking_arc_is_a_set_with_one_image():
-    whole = image(PAPER, (Fraction("3.38"), Fraction("6.04")))
-    one = point(PAPER, "5")
-    assert whole.sticking and one.sticking
-    assert whole.phase == one.phase
-
-
 def test_an_interval_contains_the_images_of_its_points():
     low, high = Fraction("1.27"), Fraction("1.32")
     found = image(PAPER, (low, high))
@@ -147,9 +140,3 @@ def test_digits_asked_for_are_digits_certified(digits):
     ):
         assert low[0] <= high[0] and high[1] <= low[1]
         assert (low[1] - low[0]) * 10**digits < abs(low[0])
-
-
-@pytest.mark.parametrize(("eta", "nu"), [("0", "1"), ("-1", "1"), ("1", "0")])
-def test_parameters_out_of_range(eta, nu):
-    with pytest.raises(ValueError, match="must"):
-        System(Fraction(eta), Fraction(nu))

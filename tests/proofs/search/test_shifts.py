@@ -12,7 +12,7 @@ import pytest
 from proofs.motion.system import System
 from proofs.search.loops import loops
 from proofs.search.s31_horseshoe import prove
-from proofs.search.shifts import families, own_sets, pieces, symbols
+from proofs.search.shifts import own_sets, pieces
 from proofs.shell.groups import decide, produce
 from proofs.trusted.certificate import Malformed
 from proofs.trusted.parameters import PAPER
@@ -92,31 +92,6 @@ def test_where_f_decreases_theorems_and_dimension_are_those_of_the_oracle(fallin
     kinds = {type(each).__name__ for each in proved}
     assert {"StayingSet", "Repeller", "Impact"} <= kinds
     assert [x for each in proved for x in oracle(each, random.Random(1), falling)] == []
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("eta", "nu"), [("0.25", "-0.3"), ("0.5", "0.2"), ("2.5", "1.9")])
-def test_where_there_is_none_none_is_found(eta, nu):
-    assert own_sets(at(eta, nu)) is None
-
-
-def test_pieces_follow_the_map_and_are_expanding():
-    from proofs.motion.candidate import next_impact
-
-    system = System(F("0.22"), F("-0.2"))
-    for piece in pieces(system, grid=300):
-        for phase in piece.phases[1:-1:7]:
-            time, _, slope = next_impact(system, phase)
-            image = piece.images[piece.phases.index(phase)]
-            assert image == phase + time and abs(slope) > 1
-            assert piece.preimage(image) == pytest.approx(phase)
-        assert piece.preimage(piece.arc[0] - 1e-9) is None
-
-
-def test_families_are_told_once():
-    found = families(symbols(pieces(System(F("0.2121"), F("-0.2")))), 8)
-    names = [frozenset((id(piece), turn) for piece, turn in family) for family in found]
-    assert max(map(len, found)) >= 3 and len(set(names)) == len(names)
 
 
 @pytest.mark.slow

@@ -347,7 +347,6 @@ REFUSED = {  # arguments, and what the line says
 }
 
 
-@pytest.mark.every
 @pytest.mark.parametrize(
     "command, arguments, why", [(name, *row) for name, rows in REFUSED.items() for row in rows]
 )

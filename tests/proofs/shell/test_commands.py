@@ -6,7 +6,6 @@ import subprocess
 import sys
 from dataclasses import replace
 from fractions import Fraction
-from importlib import import_module
 
 import pytest
 
@@ -83,17 +82,6 @@ def test_every_command_has_a_version(name, capsys):
     except SystemExit as leave:
         assert leave.code == 0
     assert capsys.readouterr().out == f"impact-proofs {__version__}\n"
-
-
-def test_the_console_script_is_declared():
-    import tomllib
-
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
-    module, _, name = project["scripts"]["impact-proofs"].partition(":")
-    assert getattr(import_module(module), name) is every.script
-    code = "from proofs.__main__ import script; script()"
-    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, check=True)
-    assert b"horseshoe" in done.stdout
 
 
 # -- options ---------------------------------------------------------------------------------------
@@ -228,9 +216,3 @@ def test_the_checker_says_what_a_ledger_is(tmp_path, capsys):
     (tmp_path / "horseshoe.json").unlink()
     assert check.main([str(tmp_path / "ledger.json")]) == 1
     assert "ledger.json: REJECTED" in capsys.readouterr().err
-
-
-def test_who_profiles_a_command_sees_it_leave():
-    command = [sys.executable, "-m", "cProfile", "-m", "proofs.horseshoe", "--version"]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, check=True, text=True)
-    assert __version__ in done.stdout and "function calls" in done.stdout

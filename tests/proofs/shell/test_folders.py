@@ -5,7 +5,6 @@ import os
 import signal
 import subprocess
 import sys
-from pathlib import Path
 from time import monotonic, sleep
 
 import pytest
@@ -14,7 +13,6 @@ from proofs import horseshoe
 from proofs.commands import ledger
 from proofs.shell import files
 from proofs.shell.files import writing
-from proofs.shell.runner import claims_of
 from proofs.trusted.manifest import check_manifest
 from tests.proofs.shell.processes import ROOT, children, started, wait_until_it_listens
 
@@ -86,21 +84,6 @@ def test_the_ledger_of_some_claims_takes_what_is_there_and_leaves_it(clone, caps
     assert [x["id"] for x in json.loads(runs["ledger.json"])["claims"]] == ["H1", "H16"]
 
 
-@pytest.mark.slow
-def test_a_whole_certificate_is_remade_whole(clone):
-    assert ledger.main(["--only", "H16", "--fresh", "--out", "reports", "--quiet"]) == 0
-    made = json.loads((clone / "reports/horseshoe.json").read_text())
-    assert {claim["id"] for claim in made["claims"]} == claims_of("horseshoe")
-
-
-@pytest.mark.slow
-def test_the_same_results_are_the_same_bytes(tmp_path):
-    for name in ("a", "b"):
-        ask = ["--only", "H1", "H16", "S2", "--quiet", "--out", str(tmp_path / name)]
-        assert ledger.main(ask) == 0
-    assert contents(tmp_path / "a") == contents(tmp_path / "b")
-
-
 # -- two writers -----------------------------------------------------------------------------------
 
 WRITER = """
@@ -115,15 +98,6 @@ for k in range(40):
         put("list.json", json.dumps([*entries, f"{name}{k}"]))
         put(f"{name}.txt", str(k))
 """
-
-
-def test_two_writers_lose_nothing(tmp_path):
-    command = [sys.executable, "-c", WRITER, str(tmp_path)]
-    writers = [subprocess.Popen([*command, name], cwd=ROOT) for name in "abc"]
-    assert [writer.wait(60) for writer in writers] == [0, 0, 0]
-    entries = json.loads((tmp_path / "list.json").read_text())
-    assert sorted(entries) == sorted(f"{name}{k}" for name in "abc" for k in range(40))
-    assert set(contents(tmp_path)) == {"list.json", "a.txt", "b.txt", "c.txt"}
 
 
 @pytest.mark.slow
@@ -186,13 +160,6 @@ def test_what_a_killed_run_left_is_cleared_by_the_next_and_nothing_else(tmp_path
     assert set(contents(tmp_path)) == {*mine, *left}
 
 
-def test_without_locks_files_are_written_all_the_same(tmp_path, monkeypatch):
-    monkeypatch.setitem(sys.modules, "fcntl", None)
-    with writing(tmp_path) as put:
-        put("a", "new")
-    assert contents(tmp_path) == {"a": b"new"}
-
-
 def test_a_folder_that_cannot_be_locked_is_written_to(tmp_path, monkeypatch):
     def refuse(*_):
         raise OSError(37, "No locks available")
@@ -220,8 +187,3 @@ def test_fresh_keeps_what_is_finished_when_interrupted(tmp_path):
     assert not (tmp_path / "circle.json").exists() and not list(tmp_path.glob(".*"))
     text = (tmp_path / "MANIFEST.json").read_text()
     assert [each.id for each in check_manifest(text, tmp_path, 1e9)] == ["H16"]
-
-
-def test_git_ignores_runs():
-    assert "runs/" in (ROOT / ".gitignore").read_text().splitlines()
-    assert not Path(ROOT, "runs").exists() or not os.environ.get("CI")

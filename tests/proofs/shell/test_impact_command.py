@@ -1,8 +1,6 @@
 """`python -m proofs impact`: what it prints and refuses; F and DF against the oracle's."""
 
 import json
-import math
-import random
 from fractions import Fraction
 
 import pytest
@@ -11,7 +9,6 @@ from proofs.commands import impact
 from proofs.motion.system import System
 from proofs.search.rebound import Impossible, rebound
 from tests.intervals.oracle import ends
-from tests.oracles.motion import flight, next_impact
 
 AT = ["--eta", "0.2121", "--nu", "-0.2"]
 
@@ -88,60 +85,6 @@ def within(bounds, value):
     low, high = (Fraction(bounds[side]) for side in ("lower", "upper"))
     least, most = ends(value)
     return low <= most and least <= high
-
-
-@pytest.mark.parametrize(
-    ("phi", "epsilon", "gamma"),
-    [
-        ("5", "0.3", "-0.3"),
-        pytest.param("1.11", "0.01", "-0.3", marks=pytest.mark.slow),
-        pytest.param("1", "1", "0", marks=pytest.mark.slow),
-    ],
-)
-def test_a_point_agrees_with_the_printed_equations(phi, epsilon, gamma, capsys):
-    found = answer(capsys, "--phi", phi, "--epsilon", epsilon, "--gamma", gamma)
-    true = flight(*map(Fraction, ("0.2121", "-0.2", phi, epsilon, gamma)))
-    assert within(found["flight"], true.time) and within(found["velocity"], true.velocity)
-    assert within(found["phase"], true.turned(float(true.lifted) // math.tau))
-    assert found["sticking"] is False and "slope" not in found
-    assert (found["epsilon"], found["gamma"]) == (epsilon, [gamma])
-    for entries, row in zip(found["jacobian"], true.derivative(), strict=True):
-        assert all(map(within, entries, row))
-
-
-def test_digits_are_certified(capsys):
-    found = answer(
-        capsys, "--phi", "1.11", "--epsilon", "0.01", "--gamma", "-0.3", "--digits", "60"
-    )
-    entries = [entry for row in found["jacobian"] for entry in row]
-    bounds = [found["flight"], found["phase"], found["velocity"], *entries]
-    for each in bounds:
-        low, high = Fraction(each["lower"]), Fraction(each["upper"])
-        assert 0 < (high - low) * 10**59 < abs(low)
-
-
-@pytest.mark.slow
-def test_a_box_contains_the_images_of_its_points(capsys):
-    found = answer(capsys, "--phi", "1.11", "1.12", "--epsilon", "0.01", "--gamma", "-0.3", "-0.25")
-    generator = random.Random(3)
-    for _ in range(3):
-        phi, gamma = generator.uniform(1.11, 1.12), generator.uniform(-0.3, -0.25)
-        true = flight(*map(Fraction, ("0.2121", "-0.2", phi, "0.01", gamma)))
-        assert within(found["phase"], true.turned(float(true.lifted) // math.tau))
-        assert within(found["velocity"], true.velocity)
-    (width,) = (Fraction(found["phase"]["upper"]) - Fraction(found["phase"]["lower"]),)
-    assert width < Fraction("0.06")
-
-
-def test_epsilon_0_is_the_plastic_map(capsys):
-    plastic = answer(capsys, "--phi", "1.11")
-    found = answer(capsys, "--phi", "1.11", "--epsilon", "0", "--gamma", "-0.3")
-    assert found["flight"] == plastic["flight"] and found["phase"] == plastic["phase"]
-    assert found["jacobian"][0][0] == plastic["slope"]
-    assert found["jacobian"][0][1] == {"lower": "0", "upper": "0"}
-    stuck = answer(capsys, "--phi", "5", "--epsilon", "0", "--gamma", "-0.3")
-    assert stuck["sticking"] is True and set(stuck["dwell"]) == {"lower", "upper"}
-    assert within(stuck["velocity"], next_impact(Fraction("0.2121"), Fraction("-0.2"), 5).velocity)
 
 
 def test_for_people(capsys):

@@ -10,9 +10,8 @@ from proofs.report import build as report
 from proofs.report import current
 from proofs.shell import files
 from proofs.shell import ledger as shell
-from proofs.shell.ledger import CLAIMS, FILES, jobs, main, settle
+from proofs.shell.ledger import jobs, main, settle
 from proofs.trusted import equations
-from proofs.trusted.paper import BEYOND
 from proofs.trusted.verify import Rejected, check
 
 FLAT = ["H1", "H2", "H11"]
@@ -20,19 +19,6 @@ FLAT = ["H1", "H2", "H11"]
 
 def run(folder, *more):
     return main(["--only", *FLAT, "--out", str(folder), *more])
-
-
-def test_every_claim_once():
-    assert len(CLAIMS) == len(set(CLAIMS))
-    settled = {job.name: job.claims for job in jobs(CLAIMS, None, 30, False)}
-    assert settled == {
-        name: tuple(claim for ids in parts.values() for claim in ids)
-        for name, parts in FILES.items()
-        if name not in BEYOND
-    }
-    for claim in CLAIMS:
-        (job,) = jobs([claim], None, 30, False)
-        assert job.claims == (claim,)
 
 
 @pytest.mark.slow
@@ -203,7 +189,3 @@ def test_a_claim_that_is_not_there_is_proved(tmp_path):
     found = settle(job)
     assert found.is_new
     assert {claim.id for claim in found.report.claims} == {"H1", "H16"}
-
-
-def test_a_group_is_a_file():
-    assert "N3" in FILES["nonplastic"]["nonplastic"] and "N1" in FILES["horseshoe"]["nonplastic"]

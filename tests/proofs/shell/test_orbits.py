@@ -8,12 +8,10 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from itertools import pairwise
-from pathlib import Path
 
 import pytest
 from mpmath import mp, mpf
 
-from intervals import Interval, Undecided
 from proofs.commands import orbits
 from proofs.methods.orbits import periodic_points
 from proofs.methods.words import Words
@@ -21,7 +19,6 @@ from proofs.search import periodic
 from proofs.trusted.parameters import PAPER
 from tests.proofs.trusted.paper import reference
 
-ROOT = Path(__file__).parents[3]
 ETA, NU = mpf("0.2121"), mpf("-0.2")
 EXACT = replace(
     PAPER,
@@ -137,15 +134,6 @@ def determinant(exponent, longest):
 
 
 @pytest.mark.slow
-def test_the_cycles_give_the_dimension_of_their_closure():
-    """det(1 - L_s) = 0 at the dimension s, which a certificate encloses by another method."""
-    claims = json.loads((ROOT / "reports" / "dimension.json").read_text())["claims"]
-    low, high = map(mpf, claims[0]["quantities"]["dimension"].values())
-    below, above = (determinant(x, 7) for x in (low - mpf(10) ** -13, high + mpf(10) ** -13))
-    assert below * above < 0
-
-
-@pytest.mark.slow
 @pytest.mark.parametrize(("length", "digits"), [(10, 25), (7, 60)])
 def test_all_orbits_solve_the_equations(length, digits):
     """With |g_t| > 1/40 and f' < 6.2, an error of e in the phases leaves about e in (10)."""
@@ -243,53 +231,3 @@ def test_sets_are_found_where_f_decreases(word, capsys):
         product *= reference.slope(eta, nu, here, time)
     assert (product < 0) == (len(word) % 2 == 1)
     assert abs(product / mpf(orbit[0]["multiplier"]["lower"]) - 1) < mpf(10) ** -15
-
-
-@pytest.mark.parametrize("sets", [["--left", "1.1", "1.15"], ["--right", "1.27", "1.32"]])
-def test_one_set_alone_is_not_enough_elsewhere(sets, capsys):
-    with pytest.raises(SystemExit) as leave:
-        orbits.main(["--word", "01", "--eta", "0.22", *sets])
-    assert leave.value.code == 2 and "go together" in capsys.readouterr().err
-
-
-def test_without_sets_elsewhere_the_paper_s_are_not_taken(capsys):
-    assert orbits.main(["--word", "01", "--eta", "0.25", "--nu", "-0.3"]) == 1
-    assert "no two sets are found" in capsys.readouterr().err
-
-
-def true_image(x, in_right):
-    """f(x) and f'(x): the zero of (10) near the time that the scan finds, at 50 digits."""
-    turns = 2 * mp.pi * (9 if in_right else 4)
-    time = mp.findroot(lambda t: reference.left_side_10(ETA, NU, as_mpf(x), t), turns)
-    return as_mpf(x) + time - turns, reference.slope(ETA, NU, as_mpf(x), time)
-
-
-@pytest.mark.parametrize("shift", [-1e-6, 1e-6])
-@pytest.mark.parametrize("where", [1.1001, 1.13, 1.1499, 1.2701, 1.3, 1.3199])
-def test_f_and_its_slope_are_enclosed(where, shift):
-    j = int(where > 1.2)
-    image, slope = true_image(Fraction(where), j)
-    x, y = (Interval.from_float(z, precision=100) for z in (where, float(image) + shift))
-    distance = horseshoe().defect(j, x, y)
-    assert contains((distance.inf, distance.sup), image - as_mpf(y.inf))
-    assert distance.wid < Fraction(1, 10**9)
-    around = y.widen(Fraction(1, 10**5))
-    steepness = horseshoe().slope(j, x.widen(Fraction(1, 10**6)), around)
-    assert contains((steepness.inf, steepness.sup), slope, mpf(10) ** -25)
-
-
-def test_a_candidate_far_from_its_orbit_is_refused():
-    zero, one = (
-        Interval(*row.point, precision=100)
-        for row in periodic_points(horseshoe(), Words.rotations("01"), 25)
-    )
-    for far in (zero, one + 1, one - Fraction(1, 10)):
-        with pytest.raises(Undecided, match="too far"):
-            horseshoe().defect(0, Interval(zero.mid, precision=100), far)
-    assert horseshoe().defect(0, zero, one).contains_zero()
-
-
-@pytest.mark.parametrize("phase", ["1.0999", "1.2", "1.3201"])
-def test_phases_outside_the_sets_are_refused(phase):
-    with pytest.raises(ValueError, match="outside"):
-        horseshoe().defect(0, Interval(phase), Interval("1.1"))

@@ -84,13 +84,6 @@ def test_a_pipe_has_plain_lines_the_same_each_time(name, tmp_path):
     assert len(said) == 1
 
 
-@pytest.mark.long
-def test_long_work_shows_that_it_goes_on():
-    status, _, raw = on_terminal("orbits", ["--period", "12"], 80)
-    assert status == 0 and re.search(r"\r\x1b\[K[12] s: [0-9a-z]", raw)
-    assert raw.rindex("\x1b[K") < raw.rindex("\n")  # wiped
-
-
 # -- by themselves ---------------------------------------------------------------------------------
 
 
@@ -159,21 +152,6 @@ def test_a_text_is_broken_between_words_and_elsewhere_stays(monkeypatch):
     assert fitted(text, StringIO()) == text
 
 
-def test_a_table_that_is_too_wide_becomes_lines(monkeypatch):
-    monkeypatch.setenv("COLUMNS", "30")
-    text = "| what | first number | second |\n|------|--------------|--------|\n| a | 1 | 2 |"
-    text = text.replace("| a | 1 | 2 |", "| a    | 1            | 2      |")
-    assert fitted(text, Terminal()) == "a: first number 1, second 2"
-    monkeypatch.setenv("COLUMNS", "40")
-    assert fitted(text, Terminal()) == text
-
-
-def test_the_gist_of_a_theorem_is_its_beginning():
-    text = "Let m >= 1. At p: let I = [1, 2]. Let K be I. f maps I to K. It is onto."
-    assert gist(text) == "Let m >= 1. At p: let I = [1, 2]. Let K be I. f maps I to K. ..."
-    assert gist("One. Two.") == "One. Two." and gist("One, e.g. w_1 ... w_n.").endswith("w_n.")
-
-
 def test_the_screen_says_what_is_true_then_a_line_a_claim_then_numbers_on_request(tmp_path, capsys):
     assert horseshoe.main(["--only", "H1", "H2", "H5", "--out", str(tmp_path)]) == 0
     said = capsys.readouterr().out.splitlines()
@@ -190,14 +168,6 @@ def test_what_is_not_decided_says_why_in_any_case(capsys):
     row = Decided("H1", Verdict.UNDECIDED, "At (eta, nu) = (1, 2): f' > 1.", "no cover")
     show_verdicts([row], verbose=False)
     assert capsys.readouterr().out == "H1   UNDECIDED   f' > 1.\n     no cover\n"
-
-
-def test_digits_are_as_many_as_asked(tmp_path, capsys):
-    for digits in (5, 30, 70):
-        ask = ["--only", "H1", "--digits", str(digits), "--out", str(tmp_path)]
-        assert horseshoe.main(ask) == 0
-        found = re.findall(r"slope_min_I0 in \[([0-9.]+), ([0-9.]+)\]", capsys.readouterr().out)
-        assert all(digits <= len(number) - 1 <= digits + 4 for number in found[0])
 
 
 def test_every_theorem_of_the_ledger_has_a_gist_of_two_assertions():

@@ -186,19 +186,5 @@ def test_a_file_name_that_is_no_text(tmp_path):
     assert "accepted" in result.stdout
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("code", [None, ALONE], ids=["plain", "others refused"])
-def test_lemma_files_and_rules(code):
-    result = run(corpus.path_of("lemmas/accepted/cubic"), code=code)
-    assert result.returncode == 0 and result.stderr == ""
-    assert "`x**3 - 3*x + 1` has a zero `x` in [-2, 2]." in result.stdout
-    assert complains(run(corpus.path_of("lemmas/rejected/false_sign"), code=code), status=1)
-    assert complains(run(corpus.path_of("lemmas/malformed/unused_step"), code=code), status=2)
-    rules = run("--rules", code=code)
-    assert rules.returncode == 0
-    for name in ("first-impact", "moran-root", "covers", "entropy", "cone", "formula-equal"):
-        assert f"Rule `{name}`" in rules.stdout
-
-
 def test_no_file_is_bad_usage():
     assert run().returncode == 2

@@ -1,7 +1,6 @@
 """MANIFEST.json: what the main job writes, and what the checker makes of a changed one."""
 
 import json
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -14,8 +13,7 @@ from proofs.shell.ledger import CLAIMS
 from proofs.trusted.certificate import MANIFEST, Malformed
 from proofs.trusted.files import digest
 from proofs.trusted.kernel.meter import DEFAULT
-from proofs.trusted.manifest import check_ledger, check_manifest, command
-from proofs.trusted.parameters import PAPER
+from proofs.trusted.manifest import check_ledger, check_manifest
 from proofs.trusted.verify import Rejected
 from tests.once import report
 from tests.oracles.sources import certificates
@@ -77,23 +75,6 @@ def test_the_command_names_the_parameters(tmp_path, capsys):
     capsys.readouterr()
     assert check([str(path)]) == 0
     assert "1 claims, 1 of them at other parameters" in capsys.readouterr().out
-
-
-def test_the_command_names_epsilon_beyond_the_paper():
-    plastic = replace(PAPER, epsilon=None, velocities=None, reach=None)
-    assert command("explore.json", plastic) == "python -m proofs explore"
-    assert command("explore.json", replace(plastic, epsilon=PAPER.epsilon)).endswith(
-        "--epsilon 0.01"
-    )
-    assert command("nonplastic.json", PAPER) == "python -m proofs nonplastic"
-
-
-@pytest.mark.slow
-def test_an_undecided_claim_in_a_manifest_is_status_1(tmp_path, capsys):
-    words = ["--eta", "0.25", "--nu", "-0.3", *SETS, "--only", "H4", "--out", str(tmp_path)]
-    assert main(words) == 1
-    capsys.readouterr()
-    assert check([str(tmp_path / manifest.NAME)]) == 1
 
 
 @pytest.mark.slow

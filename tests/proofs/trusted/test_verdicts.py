@@ -6,7 +6,7 @@ from fractions import Fraction as F
 import pytest
 
 from proofs.trusted.kernel.conclusion import About, Conclusion
-from proofs.trusted.numbers import between, covered, increasing
+from proofs.trusted.numbers import covered
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.verdicts import Found, Row, Verdict, decided, told, undecided
 
@@ -87,16 +87,6 @@ def test_what_is_about_rebounds_says_nothing_where_no_restitution_is_given():
 )
 def test_an_interval_is_covered_by_others_without_a_gap(parts, whether):
     assert covered((F(0), F(2)), parts) is whether
-
-
-def test_numbers_increase_strictly_or_not():
-    assert increasing([F(1), F(2), F(3)]) and increasing([F(1)])
-    assert not increasing([F(1), F(1)]) and not increasing([F(2), F(1)])
-
-
-def test_an_enclosure_is_rounded_outward():
-    assert between((F("0.12345"), F("0.12345")), 3) == "[0.123, 0.124]"
-    assert between((F("0.125"), F("0.125")), 3) == "0.125"
 
 
 def test_printed_numbers_are_asked_about_at_their_oscillator_alone():

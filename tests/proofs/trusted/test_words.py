@@ -101,22 +101,6 @@ def test_orbits_stay_in_a_union():
         assert not re.search(r"(in|on) V1 and V2", text)
 
 
-def test_rows_about_a_range_that_fail_inside_of_it_are_refuted():
-    """By the rule of the catalogue: an axis of a figure, all epsilon; a witness is inside."""
-    assert {ROWS[claim]["verdict"] for claim in ("P5", "P6", "S15")} == {"REFUTED"}
-    assert "(eta, nu) = (13.999, 0.2)" in ROWS["P5"]["witness"]
-    assert "(eta, nu) = (0.237, -0.03)" in ROWS["P6"]["witness"]
-
-
-def test_one_notation_is_read_alike_in_both_places():
-    assert {ROWS[claim]["verdict"] for claim in ("S8", "S10", "S11")} == {"CONDITIONAL"}
-
-
-def test_phases_are_told_in_one_turn():
-    """Of what comes to the arc: no interval of phases begins below 0."""
-    assert "[-" not in ROWS["G4"]["corrected"]
-
-
 def test_readings_are_no_stronger_than_the_words():
     """What the paper does not write is asked by rows of our own."""
     assert "almost every" not in ROWS["G4"]["statement"] + ROWS["G7"]["statement"]
@@ -126,13 +110,3 @@ def test_readings_are_no_stronger_than_the_words():
     assert {"G10", "G11", "G12"} <= own
     assert "almost every" in ROWS["G10"]["statement"] and "full shift" in ROWS["G11"]["statement"]
     assert "almost every" in ROWS["G12"]["statement"]
-
-
-def test_a_theorem_is_no_observation():
-    for row in ROWS.values():
-        assert "observation" not in (row["corrected"] or "")
-
-
-def test_the_constants_of_entropies_are_named():
-    assert "is log 2." in ROWS["H13"]["corrected"]
-    assert "number in 2" not in json.dumps(list(ROWS.values()))

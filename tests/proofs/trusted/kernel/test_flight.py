@@ -10,7 +10,6 @@ import sys
 from collections import Counter
 from fractions import Fraction
 
-import mpmath
 import numpy as np
 import pytest
 
@@ -26,7 +25,7 @@ from tests.proofs.trusted.kernel.lemma_examples import add_orbit, horseshoe
 from tests.proofs.trusted.kernel.lemma_examples import ball as ball_example
 from tests.proofs.trusted.kernel.systems import BALL, SYSTEMS, box_of
 
-SLOW, LONG = pytest.mark.slow, pytest.mark.long
+SLOW = pytest.mark.slow
 BY_SPEED = [pytest.param(x, marks=() if x in ("rattle", "back") else SLOW) for x in SYSTEMS]
 SLIP = 1e-8  # of the simulation's values
 SLOPE_SLIP = 2e-6  # of its differences, as a part of the derivatives
@@ -109,52 +108,6 @@ def launches(name, count):
         except Unproved:
             continue
     return listed
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    "name",  # not the billiard, whose gravity is a range
-    ["rattle", "back", *(pytest.param(x, marks=LONG) for x in ("oscillator", "ball", "damped"))],
-)
-def test_many_digits_at_points(name):
-    """Taylor's steps in mpmath, the derivatives by differences: 12 digits and more."""
-    ((point, _),) = launches(name, 1)
-    with mpmath.workdps(30):
-        reference = many_digits(name, point)
-    for enclosure, value in zip(at(name, point, 256), reference, strict=True):
-        low, high = enclosure.range
-        assert high - low < Fraction(1, 10**40)
-        assert abs(mpmath.mpf(low.numerator) / low.denominator - value) < 1e-12 * (1 + abs(value))
-
-
-def many_digits(name, point):
-    system = system_of(SYSTEMS[name].data)
-    about = Simulation(system).fly([[float(x)] for x in point])[-1, 0]
-    numbers = {word: getattr(mpmath, word) for word in ("sin", "cos", "exp", "pi")}
-    given = {n: mpmath.mpf(x.numerator) / x.denominator for n, (x, _) in system.parameters.items()}
-    (motion,) = system.motions
-    start, rate, gap, values = (
-        system.function(texts, numbers)
-        for texts in (motion.start, [motion.equation], system.gaps[:1], system.values)
-    )
-    names = [f"{motion.name}_{k}" for k in range(2)]
-
-    def fly(state):
-        env = {**given, **dict(zip(system.variables, state, strict=True))}
-
-        def place(t, z):
-            return {**env, system.time: t, **dict(zip(names, z, strict=True))}
-
-        z = mpmath.odefun(lambda t, z: [z[1], *rate(place(t, z))], 0, list(start(env)))
-        t = mpmath.findroot(lambda t: gap(place(t, z(t)))[0], (about, about + 1e-7))
-        return values(place(t, z(t)))
-
-    state, h = [mpmath.mpf(x.numerator) / x.denominator for x in point], mpmath.mpf(10) ** -8
-    columns = []
-    for k in range(len(state)):
-        up, down = (fly([x + s * h * (i == k) for i, x in enumerate(state)]) for s in (1, -1))
-        columns.append([(a - b) / (2 * h) for a, b in zip(up, down, strict=True)])
-    return [*fly(state), *(x for row in zip(*columns, strict=True) for x in row)]
 
 
 @pytest.mark.parametrize("name", BY_SPEED)

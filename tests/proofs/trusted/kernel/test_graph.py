@@ -151,39 +151,6 @@ def test_families_are_disjoint_if_all_pairs_are():
 # -- covers ----------------------------------------------------------------------------------------
 
 
-def test_covers_of_the_henon_map_by_samples():
-    """At points of the faces and of the set, Arb finds the images where the relation has them."""
-    document = file("henon_horseshoe")
-    sets = {
-        name: h(step["witness"]["centre"], step["witness"]["matrix"])
-        for name, step in document["steps"].items()
-        if step["rule"] == "h-set"
-    }
-    rng = random.Random(3)
-    for step in document["steps"].values():
-        if step["rule"] != "covers":
-            continue
-        witness = step["witness"]
-        source, target = sets[witness["source"]], sets[witness["target"]]
-        s = 1 if witness["sign"] == "+" else -1
-        for _ in range(50):
-            face = rng.choice([-1, 1, None])
-            q = [Fraction(rng.randint(-99, 99), 99) for _ in range(2)]
-            q[0] = q[0] if face is None else Fraction(face)
-            x, y = (
-                c + sum(a * b for a, b in zip(row, q, strict=True))
-                for c, row in zip(source.centre, source.matrix, strict=True)
-            )
-            image = (1 - 5 * x**2 + y, Fraction(3, 10) * x)
-            local = [
-                sum(a * (p - d) for a, p, d in zip(row, image, target.centre, strict=True))
-                for row in target.inverse
-            ]
-            assert abs(local[0]) > 1 or abs(local[1]) < 1
-            if face is not None:
-                assert s * face * local[0] > 1
-
-
 def interval(centre, radius):
     matrix, inverse_of = [[radius]], [[str(1 / Fraction(radius))]] if radius != "0" else [["0"]]
     return {"centre": [centre], "matrix": matrix, "inverse": inverse_of}
@@ -325,20 +292,6 @@ def test_relations_of_another_power_make_no_graph():
     assert check(json.dumps(document))
 
 
-def test_relations_of_another_function_make_no_graph():
-    document = only(file("logistic"), "graph-1")
-    document["functions"]["G"] = document["functions"]["F"]
-    witness_of(document, "covers", 3)["function"] = "G"
-    refused(document, "another map", Malformed)
-
-
-def test_a_relation_twice():
-    document = only(file("logistic"), "graph-1")
-    witness_of(document, "graph")["covers"][3] = "covers-1"
-    del document["steps"]["covers-4"]
-    refused(document, "twice", Malformed)
-
-
 @pytest.mark.every
 @pytest.mark.parametrize(
     ("length", "vector", "growth", "true"),
@@ -376,21 +329,6 @@ def test_entropy_follows_the_arrows():
     refused(document, "does not multiply")
     witness_of(document, "entropy").update(vector=["1", "0"])
     assert check(json.dumps(document))
-
-
-@pytest.mark.every
-@pytest.mark.parametrize(
-    "change",
-    [
-        {"vector": ["0", "0"]},
-        {"growth": "0"},
-        {"length": "101"},
-    ],
-)
-def test_malformed_entropy(change):
-    document = only(file("golden_mean"), "entropy-1")
-    witness_of(document, "entropy").update(change)
-    refused(document, "expected", Malformed)
 
 
 def test_entropy_counts_the_power():

@@ -7,7 +7,6 @@ import copy
 import json
 import time
 from fractions import Fraction
-from math import isqrt
 
 import pytest
 
@@ -65,28 +64,6 @@ def brackets(name, words):
     ]
 
 
-def test_the_roots_of_the_cubic():
-    """x^3 - 3x + 1 at x = 2 cos(a) is 2 cos(3a) + 1: the roots are 2 cos(80, 40, 160 degrees)."""
-    import flint
-
-    with flint.ctx.workprec(200):
-        roots = [2 * flint.arb.cos_pi_fmpq(flint.fmpq(k, 9)) for k in (8, 4, 2)]
-        for (low, high), root in zip(brackets("cubic", "has a zero"), roots, strict=False):
-            assert flint.arb(flint.fmpq(low.numerator, low.denominator)) < root
-            assert root < flint.arb(flint.fmpq(high.numerator, high.denominator))
-            assert high - low < Fraction(1, 10**11)
-
-
-def test_the_fixed_points_of_the_henon_map():
-    """1 - 1.4 x^2 + 0.3 x = x: x = (-7 +- sqrt(609)) / 28, in the two boxes."""
-    root = Fraction(isqrt(609 * 10**40), 10**20)
-    steps = json.loads(text("henon_fixed_points"))["steps"]
-    for name, x in (("unique-zero-1", (root - 7) / 28), ("unique-zero-2", (-root - 7) / 28)):
-        box = [[Fraction(end) for end in side] for side in steps[name]["witness"]["box"]]
-        assert box[0][0] < x < box[0][1]
-        assert box[1][0] < Fraction(3, 10) * x < box[1][1]
-
-
 @pytest.mark.parametrize(("name", "growth"), [("logistic", "2"), ("henon_horseshoe", "2")])
 def test_entropy_of_full_horseshoes(name, growth):
     ((low, high),) = brackets(name, "entropy")
@@ -98,12 +75,6 @@ def test_a_form_with_both_signs_makes_a_two_sided_shift():
     assert any(
         "conjugate to the two-sided shift" in x for x in check(text("henon_horseshoe")).sentences
     )
-
-
-def test_entropy_of_the_golden_mean():
-    """The bounds log(L_p)/p come near log((1 + sqrt 5)/2) = 0.4812118250596 from below."""
-    ((low, high),) = brackets("golden_mean", "entropy")
-    assert Fraction("0.4812118") < low < high < Fraction("0.4812118250596035")
 
 
 def test_sentences_in_full():

@@ -66,21 +66,21 @@ def of_galias(period):
     return {d: n for d, n in found.items() if n}
 
 
-@pytest.mark.parametrize("period", [1, 2, 3, 4, 5, 6, 7, 8])
+@pytest.mark.parametrize("period", [6, 8])  # and so 1, 2, 3, 4
 def test_the_cycles_of_the_henon_map_are_as_many_as_published(period):
     assert counts(source(HENON, period)) == of_galias(period)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    "period", [10, 12, *(pytest.param(n, marks=pytest.mark.long) for n in (14, 18, 20))]
-)
+@pytest.mark.long
+@pytest.mark.parametrize("period", [10, 12, 14, 18, 20])
 def test_longer_cycles_of_the_henon_map(period):
     assert counts(source(HENON, period)) == of_galias(period)
 
 
-@pytest.mark.parametrize(("of", "symbols"), [(SHIFT, 2), (CUBIC, 3)])
-@pytest.mark.parametrize("period", [1, 2, 3, 4])
+@pytest.mark.parametrize(
+    ("of", "symbols", "period"),
+    [(SHIFT, 2, 4), (CUBIC, 3, 3), pytest.param(CUBIC, 3, 4, marks=pytest.mark.slow)],
+)
 def test_full_shifts_have_as_many_cycles_as_there_are_necklaces(of, symbols, period):
     assert counts(source(of, period)) == {d: necklaces(symbols, d) for d in sympy.divisors(period)}
 
@@ -129,14 +129,6 @@ def compare(coefficients, period):
         if all(-2.5 <= y <= 3 for y in images(coefficients, float(sum(root) / 2), period))
     ]
     assert sum(n * d for d, n in found.items()) == len(inside)
-
-
-@pytest.mark.parametrize(
-    ("coefficients", "period"),
-    [([8, 0, -12], 1), ([8, 0, -12], 3), ([10, 1, -7, 2], 2), ([-8, 7, 9, -6], 2), ([3, -5], 3)],
-)
-def test_periodic_points_of_some_polynomials_are_the_roots(coefficients, period):
-    compare(coefficients, period)
 
 
 @settings(max_examples=20)
@@ -238,7 +230,7 @@ def test_another_function():
         check(json.dumps(document))
 
 
-@pytest.mark.parametrize("value", [pytest.param("x + x**2", marks=pytest.mark.slow), "x"])
+@pytest.mark.parametrize("value", [pytest.param("x + x**2", marks=pytest.mark.long), "x"])
 def test_points_that_are_not_isolated_or_not_simple(value):
     orbit = {"point": ["0"], "period": "1", "matrix": [["1"]]}
     witness = {"function": "F", "period": "1", "box": [["-1", "2"]], "radius": "1/1000"}

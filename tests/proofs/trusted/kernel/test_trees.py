@@ -31,6 +31,7 @@ from proofs.trusted.kernel.trees import (
 from proofs.trusted.paper import GROUPS, find
 from proofs.trusted.paper.formulas import Asked
 from proofs.trusted.verify import check
+from tests.effort import examples
 from tests.intervals.oracle import arb
 from tests.once import report as committed
 from tests.oracles.formulas import compiled, differ
@@ -61,7 +62,7 @@ leaves = st.sampled_from(NAMES).map(Variable) | st.integers(0, 10**20).map(Numbe
 trees = st.recursive(leaves, extended, max_leaves=12)
 
 
-@settings(max_examples=300)
+@settings(max_examples=examples(300))
 @given(trees)
 def test_what_is_printed_is_read_as_the_same_tree(tree):
     assert formula(str(tree)) == tree
@@ -109,7 +110,7 @@ def value_of(tree, env):
 
 
 @pytest.mark.slow
-@settings(max_examples=200)
+@settings(max_examples=examples(200))
 @given(trees, st.dictionaries(st.sampled_from(NAMES), trees, max_size=3))
 def test_substitution_is_evaluation_elsewhere(tree, places):
     """By Arb, with differences for derivatives: F with G in the place of x, at what G is."""

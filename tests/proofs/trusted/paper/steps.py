@@ -13,6 +13,7 @@ from proofs.trusted.flights import PlasticMap
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.rules import find_rule
+from tests.oracles.edits import needed
 from tests.oracles.sources import committed, committed_conclusions
 
 
@@ -27,6 +28,16 @@ def evidence(group):
 def known_of(group):
     """The conclusions of its steps, by name."""
     return committed_conclusions(group)[1]
+
+
+@cache
+def proved_by(group, *names):
+    """What some steps of its certificate prove, which derives no others but those that they need.
+
+    Arguments after the group: the names of the steps.
+    """
+    known = derive(needed(committed(group)["steps"], names))
+    return [known[name] for name in names]
 
 
 def apply(rule, witness, known=None, of=PAPER):

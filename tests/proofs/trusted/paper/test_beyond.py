@@ -170,12 +170,6 @@ def test_the_mass_rests_leaves_or_never_sticks(eta, nu, holds):
                 kind(at)
 
 
-def test_leaving_is_said_of_a_mass_at_rest():
-    """X8 is refuted by it for epsilon > 0, too, where no impact is plastic."""
-    of = replace(PAPER, eta=F("0.2121"), nu=F("-0.2"), epsilon=F("0.3"))
-    assert "a mass that rests on the table" in find("X8").decide(of, ()).witness
-
-
 @pytest.mark.parametrize(
     ("eta", "nu"), [(("1", "1.1"), "-1 -1"), (("1", "1"), "-1 0"), (("1", "1"), "1 1")]
 )
@@ -531,17 +525,12 @@ def test_a_stable_orbit_cannot_be_made_of_false_data():
 
 ASKED = [  # verdicts of X1 to X5, X10; X2, X4 and X5 by simulation in the oracles
     ("0.22", "-0.2", "REFUTED VERIFIED VERIFIED UNDECIDED VERIFIED REFUTED"),
-    ("0.112", "-0.336", "REFUTED VERIFIED VERIFIED UNDECIDED VERIFIED REFUTED"),
     ("0.237", "0.3", "REFUTED UNDECIDED REFUTED VERIFIED REFUTED REFUTED"),
-    ("1/3", "-0.23", "REFUTED UNDECIDED REFUTED UNDECIDED VERIFIED REFUTED"),  # touches for ever
     ("0.33", "1.6564", "REFUTED UNDECIDED REFUTED VERIFIED REFUTED REFUTED"),  # multiplier 0.956
     ("2.4932", "1.5046", "REFUTED UNDECIDED VERIFIED UNDECIDED REFUTED VERIFIED"),  # a long arc
     ("0.301", "0.191", "REFUTED REFUTED VERIFIED REFUTED REFUTED VERIFIED"),  # all stick
     ("0.5", "0.2", "VERIFIED REFUTED REFUTED REFUTED REFUTED REFUTED"),
-    ("0.103", "0.541", "REFUTED VERIFIED VERIFIED UNDECIDED REFUTED REFUTED"),
     ("0.7857", "-0.1701", "REFUTED VERIFIED REFUTED UNDECIDED VERIFIED REFUTED"),
-    ("1.1009", "-1.2954", "REFUTED VERIFIED REFUTED UNDECIDED UNDECIDED REFUTED"),
-    ("1", "-2", "REFUTED REFUTED REFUTED REFUTED VERIFIED REFUTED"),
 ]
 
 
@@ -549,12 +538,8 @@ REBOUNDING = [  # verdicts of X6 to X9; by simulation in the oracles
     ("0.22", "-0.2", "0.01", "VERIFIED VERIFIED REFUTED VERIFIED"),
     # rectangles that are turned over
     ("0.103", "0.541", "0.02", "VERIFIED VERIFIED REFUTED UNDECIDED"),
-    ("0.2121", "-0.2", "0.29", "UNDECIDED VERIFIED REFUTED VERIFIED"),
-    ("0.237", "0.3", "0.1", "UNDECIDED VERIFIED REFUTED UNDECIDED"),
     ("1.1122", "-1.9778", "0.259", "UNDECIDED VERIFIED REFUTED UNDECIDED"),  # turns around
     ("0.5", "0.2", "0.2", "REFUTED REFUTED VERIFIED REFUTED"),
-    ("0.1727", "-0.3328", "0.0879", "UNDECIDED VERIFIED REFUTED VERIFIED"),  # 9 impacts, and rest
-    ("2.9138", "-1.4676", "0.257", "UNDECIDED VERIFIED REFUTED UNDECIDED"),
     ("0.5", "0.2", "0.6", "UNDECIDED UNDECIDED UNDECIDED UNDECIDED"),
 ]
 
@@ -707,15 +692,6 @@ def test_the_share_is_asked_of_a_motion_that_sticks():
         assert row.decide(PAPER, [known]).verdict is Verdict.UNDECIDED
     at_rest = replace(PAPER, eta=F(1, 2), nu=F(1, 5))
     assert row.decide(at_rest, []).verdict is Verdict.REFUTED
-
-
-@pytest.mark.parametrize("eta", ["1e30", "101"])
-def test_a_mass_that_swings_too_fast_is_not_followed(eta):
-    of = replace(PAPER, eta=F(eta), nu=F("-0.2"))
-    made = produce({"explore": BEYOND["explore"]}, of, digits=20)
-    said = {line.id: line for line in made.lines}
-    assert said["X1"].verdict.value == "REFUTED"
-    assert all("not followed" in said[claim].why for claim in ("X2", "X4", "X5"))
 
 
 def test_a_budget_ends():

@@ -17,12 +17,11 @@ from proofs.motion.witness import FlightBox
 from proofs.plane.horseshoe import propose
 from proofs.plane.settling import settles, stays_stable, sticks
 from proofs.plane.steps import times_for
-from proofs.trusted.certificate import FIELDS, Malformed, Reader, parameters_from_json, parse, texts
+from proofs.trusted.certificate import Malformed, Reader, texts
 from proofs.trusted.flights import FirstImpact, Motion, first_impact
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.coverings import EntropyBound
-from proofs.trusted.kernel.head import read_function
 from proofs.trusted.paper.beyond.attractors import AllStick, AtRest, Leaves, NeverSticks
 from proofs.trusted.paper.beyond.returning import ReturningMotion, StickingMotion
 from proofs.trusted.parameters import PAPER, Place
@@ -30,7 +29,6 @@ from proofs.trusted.rules import find_rule
 from proofs.trusted.slopes import avoids
 from proofs.trusted.verify import Rejected, check, premises
 from tests.oracles.judge import oracle
-from tests.oracles.sources import REPORTS
 from tests.proofs.trusted.paper import reference
 from tests.proofs.trusted.paper.steps import exact
 
@@ -162,40 +160,6 @@ def test_a_box_says_nothing_of_claims_nor_of_rules_for_one_oscillator():
 
         witness = {"cuts": ["11/10", "23/20"], "turn": "4", "ends": ["26"]}
         branch(Context(BOX, {}, known), Reader(witness))
-
-
-ALL_OVER_A_BOX = {
-    "avoids", "branch", "first-impact", "itinerary", "lands", "passes-separation", "point",
-    "separation", "slope-range", "staying-set", "superstable-motion",
-}  # fmt: skip
-ONE_OSCILLATOR = {  # of branches those with long flights
-    "branch", "dimension", "grazing", "never-impacts",
-}  # fmt: skip
-
-
-@pytest.mark.slow
-def test_which_rules_of_committed_certificates_hold_all_over_a_box():
-    """In boxes so small that no enclosure is in the way, and none of the rules may think so."""
-    holds, fails, small = set(), set(), F(1, 10**60)
-    for name in ("chaos", "circle", "dimension", "entropy", "horseshoe", "persistence", "sets"):
-        made = parse((REPORTS / f"{name}.json").read_text())
-        _, parameters, functions, steps, _ = made.fields(*FIELDS)
-        of = parameters_from_json(parameters)
-        box = Place((of.eta, of.eta + small), (of.nu, of.nu + small))
-        context = Context(box, {x: read_function(x, each) for x, each in functions.members()})
-        for step, each in steps.members():
-            rule, witness = each.fields("rule", "witness")
-            try:
-                context.known[step] = find_rule(rule.string())(context, witness)
-            except Unproved:
-                fails.add(rule.string())
-            except Malformed as error:
-                assert "names no earlier step" in str(error)
-            else:
-                place = context.known[step].place
-                if place is not None and place.sides[:2] == box.sides[:2]:
-                    holds.add(rule.string())
-    assert (holds, fails) == (ALL_OVER_A_BOX, ONE_OSCILLATOR)
 
 
 def test_an_earlier_impact_must_be_excluded():

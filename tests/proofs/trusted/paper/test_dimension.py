@@ -19,9 +19,8 @@ from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Found, Verdict
 from proofs.trusted.verify import check
 from tests.proofs.trusted.paper import periodic_dimension
-from tests.proofs.trusted.paper.steps import evidence, moved_to
+from tests.proofs.trusted.paper.steps import evidence
 
-DIGITS = 5
 SLOPES = (Fraction(2), Fraction(9))
 LEFT, RIGHT = (Fraction("1.1"), Fraction("1.15")), (Fraction("1.27"), Fraction("1.32"))
 HULL = (LEFT[0], RIGHT[1])
@@ -107,16 +106,6 @@ def test_without_a_linear_set_none_is_spoken_of(ratios):
     decision = decide([*conclusions(), root], replace(PAPER, ratios=pair))
     assert decision.verdict is Verdict.REFUTED
     assert "linear" not in decision.witness + decision.theorem
-
-
-@pytest.mark.parametrize("kind", [StayingSet, MoranRoot, Repeller])
-def test_nothing_is_decided_without(kind):
-    found = [each for each in conclusions() if not isinstance(each, kind)]
-    assert decide(found).verdict is Verdict.UNDECIDED
-    elsewhere = replace(PAPER, nu=Fraction("-0.21")).place
-    if kind is not MoranRoot:
-        moved = [moved_to(x, elsewhere) if isinstance(x, kind) else x for x in conclusions()]
-        assert decide(moved).verdict is Verdict.UNDECIDED
 
 
 def changed(kind, change, **fields):

@@ -65,15 +65,6 @@ def test_the_conclusion_is_the_prover_s():
     assert found.growth[0] < 1 < found.growth[1]
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("shift", ["1e-4", "-1e-4", "1/100"])
-def test_another_exponent_proves_wider_bounds(shift):
-    given = witness()
-    given["exponent"] = str(Fraction(given["exponent"]) + Fraction(shift))
-    low, high = conclude(given).dimension
-    assert low < DIMENSION < high and high - low > abs(Fraction(shift))
-
-
 def dimension_read(given):
     return _read(Context(PAPER, {}, branches()), Reader(given))
 

@@ -9,7 +9,6 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from flint import arb, ctx
 
 from proofs import horseshoe
 from proofs.shell import runner
@@ -82,19 +81,6 @@ def test_numbers_against_brute_force(outcome):
             _, slope = brute(reference.mpf(phi.numerator) / phi.denominator)
             least, most = (found[f"slope_{name}_{which}"] for name in ("min", "max"))
             assert float(least[0]) < slope < float(most[1])
-
-
-def test_moran_root_against_flint(outcome):
-    ctx.prec = 300
-    found = quantities(outcome)
-    for name, r0, r1 in (
-        ("s0", arb("0.1905"), arb("0.2381")),
-        ("s0_reciprocal_slopes", arb(4) / 21, arb(5) / 21),
-    ):
-        low, high = found[name]
-        powers = [arb(s.numerator) / s.denominator for s in (low, high)]
-        assert r0 ** powers[0] + r1 ** powers[0] > 1 > r0 ** powers[1] + r1 ** powers[1]
-        assert high - low < Fraction(1, 10**30)
 
 
 def test_the_corrected_theorem_is_about_the_nearest_printed_sets(outcome):
@@ -172,18 +158,6 @@ def run(*arguments):
     )
 
 
-@pytest.mark.slow
-def test_the_command_writes_and_checks_and_needs_no_heavy_imports(tmp_path):
-    script = (
-        "import sys; from proofs.horseshoe import main; status = main(sys.argv[1:]);"
-        "print(sorted({'numpy', 'sympy', 'matplotlib', 'scipy'} & set(sys.modules)), status)"
-    )
-    done = run("-c", script, "--out", str(tmp_path))
-    assert done.stdout.splitlines()[-1] == "[] 0"
-    assert "checker: accepted" in done.stdout
-    assert (tmp_path / "horseshoe.json").exists() and (tmp_path / "horseshoe.md").exists()
-
-
 def test_a_checker_that_disagrees_is_loud(monkeypatch, capsys, tmp_path):
     from proofs.trusted.verify import Rejected
 
@@ -193,24 +167,3 @@ def test_a_checker_that_disagrees_is_loud(monkeypatch, capsys, tmp_path):
     monkeypatch.setattr(runner, "check", refuse)
     assert horseshoe.main(["--only", "H16", "--out", str(tmp_path)]) == 3
     assert "DISAGREES" in capsys.readouterr().err
-
-
-def test_a_figure_without_matplotlib(monkeypatch, capsys, tmp_path):
-    find = runner.find_spec
-    monkeypatch.setattr(
-        runner, "find_spec", lambda name: None if name == "matplotlib" else find(name)
-    )
-    with pytest.raises(SystemExit) as leave:
-        horseshoe.main(["--figure", "--out", str(tmp_path / "new")])
-    assert leave.value.code == 2 and "needs matplotlib" in capsys.readouterr().err
-    assert not (tmp_path / "new").exists()
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("claim", "status"), [("H16", 0), ("H2", 1)])  # 1: it is undecided
-def test_a_figure_of_what_is_not_proved_is_refused(claim, status, capsys, tmp_path):
-    sets = ["--left", "4", "4.5", "--right", "5", "5.5"]
-    arguments = [*sets, "--only", claim, "--figure", "--out", str(tmp_path)]
-    assert horseshoe.main(arguments) == status
-    assert "no figure" in capsys.readouterr().err
-    assert not (tmp_path / "figures").exists()

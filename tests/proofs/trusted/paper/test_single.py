@@ -180,26 +180,6 @@ def test_command_says_what_is_resonant_and_what_is_left_out(capsys):
     assert "n = 4: an orbit, not stable" in out and "greater n" not in out
 
 
-@pytest.mark.parametrize(("eta", "nu"), [("1", "0.2"), ("1/2", "0.2"), ("13.999", "0.2")])
-def test_where_no_n_is_looked_at_that_is_said(eta, nu, capsys):
-    assert single_impact.main(["--eta", eta, "--nu", nu]) == 0
-    out = capsys.readouterr().out
-    assert "no orbit for any n" in out and "needs n eta < 1/2" in out
-    assert "no solution of (16)" not in out
-
-
-def test_what_there_is_is_summed_up_before_it_is_listed(capsys):
-    assert single_impact.main(["--eta", "0.237", "--nu", "0.3"]) == 0
-    lines = capsys.readouterr().out.splitlines()
-    assert lines[1] == (
-        "n = 1, ..., 2: 2 solutions of (16) where n eta is no integer, 1 orbit, 1 stable, for n = 1"
-    )
-    assert lines[2] == "for greater n no solution is an orbit"
-    assert sum(line.startswith("n = 1: ") for line in lines) == 2
-    assert single_impact.main(["--eta", "0.6", "--nu", "0.9", "--n", "1"]) == 0
-    assert "n = 1: 2 solutions of (16)" in capsys.readouterr().out
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("nu", ["1", "-1"])
 def test_at_amplitude_one_a_solution_is_at_rest_and_the_other_as_elsewhere(nu):
@@ -244,9 +224,3 @@ def test_a_saddle_node_is_undecided_and_does_not_hide_the_rest(capsys):
     assert answer["undecided"] == [1, 3] and answer["resonant"] == [4]
     assert single_impact.main(["--eta", "3/4", "--nu", "-3/5", "--n", "1"]) == 1
     assert "n = 1: undecided" in capsys.readouterr().out
-
-
-def test_progress_is_told_for_each_n():
-    told = []
-    single_impact.answer_for(system("0.3", "0.2"), range(2, 5), 5, told.append)
-    assert told == ["n = 2 of 4", "n = 3 of 4", "n = 4 of 4"]

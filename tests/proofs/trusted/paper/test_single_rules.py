@@ -12,9 +12,7 @@ from fractions import Fraction
 import pytest
 from mpmath import mp, mpf
 
-from proofs.report.figures.windows import FIGURE_A
 from proofs.search import s4_single
-from proofs.shell.groups import produce
 from proofs.trusted.certificate import Malformed, Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
@@ -26,7 +24,7 @@ from proofs.trusted.paper.s4_single.windows import EtaWindows, NuWindows
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.rules import find_rule
 from proofs.trusted.verdicts import Verdict
-from proofs.trusted.verify import Rejected, check, premises
+from proofs.trusted.verify import Rejected
 from tests.once import REPORTS
 from tests.proofs.trusted.paper import reference
 from tests.proofs.trusted.paper.steps import evidence
@@ -217,20 +215,6 @@ def test_windows_at_an_amplitude_beyond_the_lemmas_are_not_proved():
 # -- the claims ----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("eta", "nu"), [("0.237", "0.3"), ("0.6", "-0.9"), ("1e-30", "0.3")])
-def test_orbits_at_parameters_of_ones_own_stand_beside_the_papers_solutions(eta, nu):
-    of = replace(PAPER, eta=Fraction(eta), nu=Fraction(nu), reach=None)
-    made = produce({"single": ("P4",)}, of, digits=20)
-    ((claim,), solutions) = (check(made.certificate).claims, steps_of_text(made.certificate))
-    assert claim.verdict is Verdict.CONDITIONAL and "at (eta, nu) = (0.2121, -0.2): " in claim.why
-    own = [each for each in solutions if Fraction(each["eta"]) == of.eta]
-    assert all(each["flight"] for each in own) and bool(own) is (eta != "1e-30")
-
-
-def steps_of_text(source):
-    return steps_of(json.loads(source), "single-solution")
-
-
 def verdict(claim, conclusions):
     return find(claim).decide(PAPER, conclusions).verdict
 
@@ -314,16 +298,3 @@ def test_stable_orbits_that_stick_are_in_no_window(document, eta):
     for share in range(11):  # from the landing on, up to phi_s a turn later
         phi = leave + time + (2 * mp.pi - time) * share / 11
         assert time < 2 * mp.pi and reference.launch_acceleration(eta, nu, phi) < 0
-
-
-@pytest.mark.slow
-def test_a_claim_alone_has_its_own_certificate():
-    alone = produce({"single": ["P6"]}, PAPER, digits=15).certificate
-    assert [one.id for one in check(alone).claims] == ["P6"]
-
-
-@pytest.mark.slow
-def test_the_figure_is_drawn_from_the_certificate(document):
-    pytest.importorskip("matplotlib")
-    drawn = FIGURE_A.svg({"single": premises(json.dumps(document))})
-    assert drawn.startswith("<?xml") and drawn.count("<path") > 50
