@@ -19,13 +19,13 @@ from proofs.trusted.rules import RULES
 ROOT = Path(__file__).parents[1]
 GENERATED = ["docs/api.md", "docs/systems.md"]
 BUDGETS = {
-    "proofs": 54_600,
-    "proofs/trusted": 22_700,
+    "proofs": 55_150,
+    "proofs/trusted": 22_800,
     "proofs/search, proofs/motion": 8_500,
     "proofs/shell": 1_760,
     "proofs/benchmark": 1_880,
     "proofs/stress": 1_300,
-    "tests": 43_900,
+    "tests": 44_200,
     "words of the docs": 12_000,  # of those that are written by hand, the README with them
     "rules outside the kernel": 26,
     "loose modules": 9,  # of the package proofs

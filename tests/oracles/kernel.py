@@ -150,7 +150,7 @@ def image(view, rng):
 
 def trapped(view, rng):
     """Images of points of the boxes are in boxes, angles aside."""
-    angles = {circle.place for circle in view.function.circles}
+    angles = {place for place, *_ in view.function.circles}
     places = [i for i in range(len(view.boxes[0])) if i not in angles]
     for box in view.boxes:
         with flint.ctx.workprec(BITS):

@@ -160,7 +160,7 @@ def test_a_file_of_another_system_is_not_replaced(tmp_path):
 
 def test_an_attractor_is_trapped():
     """By hand: |x'| <= 0.5 + 0.4 sin 1 < 1, |v'| <= 0.9; a union; a box that some images leave."""
-    spiral = Map("x/2 + 0.4*sin(v)", "0.9*x")
+    spiral = Map("x/2 + 0.4*sin(v)", "0.9*x", variables=("x", "v"))
     (trapped,) = accepted(spiral.trapping(x=("-1", "1"), v=("-1", "1")))
     assert "`F` has a fixed point in T." in trapped.sentence
     halves = [{"x": sides, "v": ("-1", "1")} for sides in (("-1", "0"), ("0", "1"))]
