@@ -298,6 +298,7 @@ def test_a_graze_is_between_an_impact_and_none():
         BALL.graze(phi="0.3", v="1.5")
 
 
+@pytest.mark.slow
 def test_two_walls_at_once_are_no_impact_with_one():
     with pytest.raises(Undecided, match="two walls may be hit at once"):
         far_wall((("wall", "other"),)).impact(a="0.3", v="-1")
