@@ -110,6 +110,7 @@ def _respects(sampled: Sampled, x: Floats, k: int, period: float) -> bool:
     """Whether a variable may have a period: with it added images are the same, but for turns."""
     turned = np.array(x)
     turned[k] += period
-    change = (sampled(turned) - sampled(x)) / period
+    with np.errstate(invalid="ignore"):
+        change = (sampled(turned) - sampled(x)) / period
     change[k] -= np.round(change[k])
     return bool((np.abs(change) < _NEUTRAL).all())

@@ -165,7 +165,8 @@ class Sampled:
 
     def turns(self, x: Floats) -> Floats:
         """Return the whole periods in the angles of points."""
-        return np.floor(x / self.periods[:, None])
+        with np.errstate(invalid="ignore"):
+            return np.floor(x / self.periods[:, None])
 
     def expanded(self, x: Floats) -> tuple[Floats, Floats]:
         """Return the images of points, of the shape (points, n), and the derivatives there.
