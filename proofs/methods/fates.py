@@ -29,6 +29,7 @@ class Followed(NamedTuple):
     steps: int
 
 
+@np.errstate(all="ignore")
 def followed(sampled: Sampled, box: Sequence[Range]) -> Followed:
     """Follow points at random in a box."""
     x, ends = seeds(sampled, box, _FOLLOWED, 0)[:, :_FOLLOWED], Counter[str]()
@@ -50,6 +51,7 @@ def _end(sampled: Sampled, x: Floats) -> str:
     return f"beyond {_FAR:g}"
 
 
+@np.errstate(all="ignore")
 def attractors(sampled: Sampled, x: Floats, longest: int) -> list[Cycle]:
     """Return the attracting periodic orbits, up to a period, that settled points come to."""
     found: list[Cycle] = []
@@ -64,6 +66,7 @@ def attractors(sampled: Sampled, x: Floats, longest: int) -> list[Cycle]:
     return found
 
 
+@np.errstate(all="ignore")
 def fates(sampled: Sampled, box: Sequence[Range], longest: int) -> list[str]:
     """Say what becomes of points at random in a box."""
     points, ends, steps = followed(sampled, box)
@@ -110,7 +113,6 @@ def _respects(sampled: Sampled, x: Floats, k: int, period: float) -> bool:
     """Whether a variable may have a period: with it added images are the same, but for turns."""
     turned = np.array(x)
     turned[k] += period
-    with np.errstate(invalid="ignore"):
-        change = (sampled(turned) - sampled(x)) / period
+    change = (sampled(turned) - sampled(x)) / period
     change[k] -= np.round(change[k])
     return bool((np.abs(change) < _NEUTRAL).all())
