@@ -506,6 +506,25 @@ def test_a_question_that_is_none(asked, told, capsys):
     assert told in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["--seconds", "0"], "some seconds are expected, not 0"),
+        (["--walls", "floor"], "walls are those of a system"),
+        (["--set", "a=2"], "the parameter a is in none of the formulas"),
+    ],
+)
+def test_what_is_no_use_is_told(arguments, told, capsys):
+    with pytest.raises(SystemExit, match="2"):
+        main(["--map", "x/2", *arguments])
+    assert told in capsys.readouterr().err
+
+
+def test_branches_of_flows_are_not_followed():
+    with pytest.raises(Undecided, match="with a closed form"):
+        System.example("van-der-pol").branches(m=("1", "2"))
+
+
 def test_all_orbits_and_images_are_asked_of_the_command(capsys):
     asked = ["--ask", "all:3", "orbits", "image:x=0.3", "--box", "x=-1:2"]
     assert main(["--map", "R*x*(1 - x)", "--set", "R=3.9", *asked]) == 0
@@ -520,6 +539,8 @@ def test_all_orbits_and_images_are_asked_of_the_command(capsys):
         (["--map", "sqrt(x - 10)"], "30 end before: where the map is not defined"),
         (["--map", "x^2 + 1"], "30 end before: beyond 1e+06"),
         (["--map", "x + 0.3 - sin(x)/2"], "x may be an angle: give it the period 2*pi"),
+        (["--map", "x/0"], "30 end before: where the map is not defined"),
+        (["--map", "x^2 - 1"], "18 come to an orbit of period 2 through (-1)\n"),
         (["--map", "x/2"], "of 30 points at random, x in [-3, 3], 30 are followed"),
         (["--example", "wall", "--box", "v=-1:2"], "at once, as at rest or after chatter: -x is"),
         (["--example", "two-walls"], "at another wall than is next in their order"),
