@@ -13,11 +13,10 @@ from typing import TYPE_CHECKING, Literal
 
 from proofs.benchmark.curves import Curve, Point
 from proofs.benchmark.peers import CODAC, FLINT, IV
-from proofs.report.markup import svg_text
+from proofs.report.figures.style import Axes, style, svg_of
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
-    from matplotlib.axes import Axes
 
 _OURS = ("#08519c", "o"), ("#6baed6", "<"), ("#4292c6", ">")  # colour, mark
 _OTHERS = {  # by the end of their names
@@ -61,11 +60,6 @@ def svg(diagram: Diagram) -> str:
 
     ImportError without matplotlib.
     """
-    import matplotlib as mpl
-
-    mpl.use("svg")
-    from matplotlib import pyplot as plt
-
     panels: dict[str, list[Curve]] = {}
     for curve in diagram.curves:
         form = curve.way.partition(", ")[0] if diagram.panels else ""
@@ -73,8 +67,10 @@ def svg(diagram: Diagram) -> str:
             panels.setdefault(form, []).append(curve)
     columns, rows = min(len(panels), 3), ceil(len(panels) / 3)
     size = (9.5, 2.7 * rows + 1.0) if diagram.panels else (7.5, 5.0)
-    with mpl.rc_context({"svg.hashsalt": diagram.name, "font.size": 9, "legend.fontsize": 8}):
-        figure = plt.figure(figsize=size, layout="constrained")
+    with style(diagram.name):
+        from matplotlib import pyplot as plt
+
+        figure = plt.figure(figsize=size)
         grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).flat
         known: dict[str, Artist] = {}
         for axes, (form, curves) in zip(grid, panels.items(), strict=False):
@@ -93,7 +89,7 @@ def svg(diagram: Diagram) -> str:
         if len(names) > 1:
             wide = 4 if max(map(len, names)) <= 20 else 2
             figure.legend(known.values(), names, loc="outside lower center", ncols=wide)
-        return svg_text(figure)
+        return svg_of(figure, diagram.name, diagram.title)
 
 
 def _draw(axes: Axes, diagram: Diagram, curves: list[Curve]) -> dict[str, Artist]:
@@ -101,7 +97,7 @@ def _draw(axes: Axes, diagram: Diagram, curves: list[Curve]) -> dict[str, Artist
     known: dict[str, Artist] = {}
     own = cycle(_OURS)
     for curve in curves:
-        colour, mark = style(curve.way) or next(own)
+        colour, mark = of_peer(curve.way) or next(own)
         points = [(x, p) for p in curve.points if (x := diagram.place(p)) > 0]
         if points:
             name = curve.way.rpartition(", ")[2] if diagram.panels else curve.way
@@ -113,6 +109,6 @@ def _draw(axes: Axes, diagram: Diagram, curves: list[Curve]) -> dict[str, Artist
     return known
 
 
-def style(way: str) -> tuple[str, str] | None:
-    """Return colour and mark of others; None if the way is ours."""
-    return next((one for end, one in _OTHERS.items() if way.endswith(end)), None)
+def of_peer(way: str) -> tuple[str, str] | None:
+    """Return colour and mark of another library; None if the way is ours."""
+    return next((marked for end, marked in _OTHERS.items() if way.endswith(end)), None)

@@ -16,9 +16,8 @@ from intervals import Undecided
 from proofs.methods.dimension import POINTS, Images, Remembered, boundary, ellipses, enough_arcs
 from proofs.methods.eigenfunction import candidate
 from proofs.motion.inverse import InverseBranch
-from proofs.motion.system import System
-from proofs.motion.witness import HORIZON
 from proofs.search.evidence import FAILED, Evidence, Proof, Tell
+from proofs.search.request import Request, proving
 from proofs.search.s32_sets import LEAST_DIGITS, prove_staying
 from proofs.search.s34_staying import prove_full_shifts
 from proofs.search.steps import Prover
@@ -183,17 +182,12 @@ def _path(images: Images, rho: float) -> tuple[Fraction, ...]:
     return tuple(round(Fraction(c), 12) for c in found)
 
 
-def prove(
-    of: Parameters,
-    claims: Sequence[str],
-    *,
-    digits: int = 30,
-    tell: Tell = lambda stage: None,
-) -> Evidence:
+@proving
+def prove(request: Request) -> Evidence:
     """Prove what the claims rest on: dimensions, rates of escape and s_0, to so many digits."""
-    run = _Run(of, Prover(System(of.eta, of.nu), max(digits, LEAST_DIGITS), HORIZON), digits, tell)
+    run = _Run(request.of, request.prover(least_digits=LEAST_DIGITS), request.digits, request.tell)
     provers = {"H13": _staying, "G19": _shifts}
-    proofs = {claim: provers[claim](run) for claim in provers if claim in claims}
+    proofs = {claim: provers[claim](run) for claim in provers if request.asks(claim)}
     return Evidence(run.prover.steps, proofs)
 
 

@@ -17,10 +17,9 @@ from types import MappingProxyType
 from intervals import Undecided
 from proofs.motion.brackets import middle
 from proofs.motion.landing import NEWTON, short, zero
-from proofs.motion.system import System
 from proofs.motion.windows import Candidates
-from proofs.motion.witness import HORIZON
 from proofs.search.evidence import FAILED, Evidence, Proof, search_each
+from proofs.search.request import Request, proving
 from proofs.search.s34_chaos import prove_covering
 from proofs.search.s34_laps import FINE, Images, Laps, flight, record, rise
 from proofs.search.steps import Prover
@@ -39,7 +38,6 @@ from proofs.trusted.paper.s34_circle.grazing import Grazing
 from proofs.trusted.paper.s34_circle.laps import EntropyRange
 from proofs.trusted.paper.s34_circle.pieces import Piece
 from proofs.trusted.paper.s34_circle.roots import ENDS
-from proofs.trusted.parameters import Parameters
 
 _DEPTHS = 3, 4  # of the towers of states, from below and from above
 _SCALE, _RATE = Fraction(1, 7), Fraction(5, 4)  # of lengths above pi/2, and how they grow
@@ -52,17 +50,12 @@ _ROOT_TURNS, _ROOT_GRID, _BESIDE = 2000, 20, 0.005
 _SOONER = Fraction(1, 10**6)  # than a narrow graze, impacts beside it
 
 
-def prove(
-    of: Parameters,
-    claims: Sequence[str],
-    *,
-    digits: int = 30,
-    tell: Callable[[str], None] = lambda stage: None,
-) -> Evidence:
+@proving
+def prove(request: Request) -> Evidence:
     """Prove what the claims asked for rest on, as far as it goes."""
-    prover = Prover(System(of.eta, of.nu), digits, HORIZON)
-    evidence = Evidence(prover.steps, {claim: [] for claim in claims})
-    return search_each(evidence, claims, _SEARCHES, tell, _Whole(prover))
+    prover = request.prover()
+    evidence = Evidence(prover.steps, {claim: [] for claim in request.claims})
+    return search_each(evidence, request.claims, _SEARCHES, request.tell, _Whole(prover))
 
 
 @dataclass

@@ -6,7 +6,7 @@ orbits in figures 7a and 7b are enclosed with the package `intervals`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
@@ -16,17 +16,16 @@ from intervals import Undecided
 from proofs.motion.single_orbits import SingleImpact, solutions
 from proofs.motion.system import System
 from proofs.motion.window_ends import bracket, earlier, eta_end, graze_end, nu_end
-from proofs.motion.witness import HORIZON
 from proofs.search.derivations import Steps
 from proofs.search.evidence import FAILED, Evidence
+from proofs.search.request import Request, proving
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.flights import Motion
 from proofs.trusted.numbers import TURN, Range
-from proofs.trusted.paper import GROUPS
 from proofs.trusted.paper.s4_single import single as claims
 from proofs.trusted.paper.s4_single.orbits import FLIP, SADDLE, STICK, records
-from proofs.trusted.parameters import PAPER, Parameters
+from proofs.trusted.parameters import PAPER
 
 _MOST = 40  # table periods in the search for examples
 _ORBITS = 12  # and for orbits to show
@@ -191,21 +190,16 @@ def _figure_b(steps: Single) -> list[str]:
 _FIND = {"P4": _stability, "P5": _figure_a, "P6": _figure_b}
 
 
-def prove(
-    of: Parameters,
-    asked: Sequence[str] = GROUPS["single"],
-    *,
-    digits: int = 30,
-    tell: Callable[[str], None] = lambda stage: None,
-) -> Evidence:
+@proving
+def prove(request: Request) -> Evidence:
     """Prove what the claims asked for rest on: formulas, and for P4 to P6 orbits."""
-    formulas = Steps(digits)
-    prover = Prover(System(of.eta, of.nu), digits, HORIZON, formulas.steps)
+    formulas = Steps(request.digits)
+    prover = request.prover(formulas.steps)
     single, evidence = Single(prover), Evidence(formulas.steps)
     for row in claims.ROWS:
-        if row.id not in asked:
+        if not request.asks(row.id):
             continue
-        tell(f"formulas and orbits of {row.id}")
+        request.tell(f"formulas and orbits of {row.id}")
         names = _FIND[row.id](single) if row.id in _FIND else []
         proved = [formulas.prove(need) for need in row.needs]
         rest = [each for each in proved if each is not None]

@@ -11,7 +11,8 @@ from proofs.methods import derive
 from proofs.methods.bifurcation.maps import Map
 from proofs.methods.bifurcation.normal_forms import NormalForm
 from proofs.methods.bifurcation.solving import coefficients, solve
-from proofs.search.derivations import prove_rows
+from proofs.search.derivations import Solvers, prove_rows
+from proofs.search.request import proving
 from proofs.trusted.paper.formulas import Unknowns
 from proofs.trusted.paper.s5_soft import doubling, near, soft, stability
 
@@ -79,15 +80,12 @@ def _by(term: Any) -> list[Any]:
     return [x for x, n in sorted(term.as_powers_dict().items(), key=str) for _ in range(n)]
 
 
-prove = partial(
-    prove_rows,
-    (*soft.ROWS, *stability.ROWS),
-    solvers=MappingProxyType(
-        {
-            near.FLIP: _flip,
-            doubling.CYCLE: _cycle,
-            near.JET: partial(_jet, height=4, slope=-1),
-            near.PRINTED_JET: partial(_jet, height=2, slope=0),
-        }
-    ),
+_SOLVERS: Solvers = MappingProxyType(
+    {
+        near.FLIP: _flip,
+        doubling.CYCLE: _cycle,
+        near.JET: partial(_jet, height=4, slope=-1),
+        near.PRINTED_JET: partial(_jet, height=2, slope=0),
+    }
 )
+prove = proving(partial(prove_rows, rows=(*soft.ROWS, *stability.ROWS), solvers=_SOLVERS))
