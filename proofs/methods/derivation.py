@@ -60,7 +60,8 @@ class Derivation:
     @contextmanager
     def undone(self) -> Iterator[None]:
         """Take back the steps and functions made inside if that fails; the failure goes on."""
-        functions, tables = self.functions, (self.steps, self.known, self.context.functions)
+        functions = self.functions
+        tables: tuple[dict[str, Any], ...] = self.steps, self.known, self.context.functions
         before = [dict(table) for table in tables]
         try:
             yield
