@@ -485,6 +485,7 @@ def test_the_time_is_over(capsys):
     assert said.count("stopped after 0.7 seconds, as asked") == 2 and "points at random" not in said
 
 
+@pytest.mark.slow
 def test_what_comes_next_is_asked(capsys):
     assert main(["--example", "wall", "--ask", "impact:a=0.3,v=-1", "impact:a=0.3,v=1"]) == 0
     said = capsys.readouterr().out
