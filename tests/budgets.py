@@ -25,11 +25,11 @@ BUDGETS = {
     "proofs/shell": 1_760,
     "proofs/benchmark": 1_880,
     "proofs/stress": 1_300,
-    "tests": 43_900,
+    "tests": 44_000,
     "words of the docs": 12_000,  # of those that are written by hand, the README with them
     "rules outside the kernel": 26,
     "loose modules": 9,  # of the package proofs
-    "tracked files": 910,
+    "tracked files": 905,
     "headline": 8_690,  # lines of the files that run to check reports/horseshoe.json
     "way of H2": 7_420,  # lines of the files that run to prove H2 and to check it
     "way of H2, files": 50,

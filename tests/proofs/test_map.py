@@ -298,6 +298,7 @@ def test_a_graze_is_between_an_impact_and_none():
         BALL.graze(phi="0.3", v="1.5")
 
 
+@pytest.mark.slow
 def test_two_walls_at_once_are_no_impact_with_one():
     with pytest.raises(Undecided, match="two walls may be hit at once"):
         far_wall((("wall", "other"),)).impact(a="0.3", v="-1")
@@ -410,6 +411,23 @@ def test_a_file_that_is_wrong_is_told_in_a_line(tmp_path, old, new, reason):
     with pytest.raises(GrammarError, match=reason) as refused:
         System.read(file)
     assert "\n" not in str(refused.value) and str(file) in str(refused.value)
+
+
+@pytest.mark.parametrize("name", ["bouncing-ball", "wall", "two-walls"])
+def test_derivatives_of_candidates_are_differences(name):
+    system = System.example(name)
+    sampled = system._sampled.iterate(2 - len(system.walls) // 2)
+    low, high = np.array([[float(end) for end in side] for side in system.region()]).T[:, :, None]
+    x = low + (high - low) * np.random.default_rng(1).random((len(low), 400))
+    image, slopes = sampled.expanded(x)
+    assert np.array_equal(image.T, sampled(x), equal_nan=True)
+    step = 1e-6
+    for k in range(len(x)):
+        moved = [x + side * step * (np.arange(len(x)) == k)[:, None] for side in (1, -1)]
+        change = (sampled(moved[0]) - sampled(moved[1])).T / (2 * step)
+        tame = np.isfinite(change).all(axis=1) & (np.abs(change).max(axis=1) < 100)
+        assert tame.sum() > 20
+        assert np.abs(slopes[tame, :, k] - change[tame]).max() < 1e-4
 
 
 # -- the command -----------------------------------------------------------------------------------

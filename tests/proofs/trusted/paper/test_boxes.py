@@ -219,6 +219,10 @@ def test_a_branch_is_of_transversal_impacts_of_one_oscillator(change, match):
     known[two] = replace(known[one], motion=replace(motion, phases=(high, 2 * high - low)))
     witness = {"flights": [one, two], "turn": "4"}
     assert find_rule("branch")(Context(BOX, {}, known), Reader(witness)).cuts[1] == high
+    later = replace(motion, phases=(high + F(1, 10**9), 2 * high - low))
+    with pytest.raises(Unproved, match="do not follow one another"):
+        apart = {**known, two: replace(known[one], motion=later)}
+        find_rule("branch")(Context(BOX, {}, apart), Reader(witness))
     known[two] = replace(known[two], **change)
     with pytest.raises(Unproved, match=match):
         find_rule("branch")(Context(BOX, {}, known), Reader(witness))

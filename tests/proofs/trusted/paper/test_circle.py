@@ -512,7 +512,12 @@ def test_what_is_open_rests_on_a_sink_of_the_same_oscillator(arc):
 
 
 @pytest.mark.parametrize(
-    "ends", [(("1.5", "1.6"), ("1.7", "1.8")), (("1.57", "1.57"), ("1.6", "1.7"))]
+    "ends",
+    [
+        (("1.5", "1.6"), ("1.7", "1.8")),
+        (("1.57", "1.57"), ("1.6", "1.7")),
+        (("1.5", "1.57"), ("1.6", "1.6")),
+    ],
 )
 def test_the_ends_of_a_sink_are_brackets_of_its_interval(ends):
     never = NeverImpacts(PAPER.place, Phases(Fraction("1.57"), Fraction("1.6")))
