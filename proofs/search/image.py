@@ -137,15 +137,15 @@ def _after_sticking(prover: Prover, phases: Range, digits: int | None = None) ->
     zero = (Fraction(0), Fraction(0))
 
     def at_precision(bits: int) -> Image:
-        name, found = prover.seen_or_proved(partial(_separation, prover, bits))
-        arrival = phase_after(Fraction(0), found.arrival, bits)
-        dwell = _dwell(phases, found.phase, bits)
-        return Image(found.time, arrival, zero, True, dwell, prove=lambda: prover.claimed(name))
+        name, separated = prover.seen_or_proved(partial(_separation, prover, bits))
+        arrival = phase_after(Fraction(0), separated.arrival, bits)
+        dwell = _dwell(phases, separated.phase, bits)
+        return Image(separated.time, arrival, zero, True, dwell, prove=lambda: prover.claimed(name))
 
-    def bounds(found: Image) -> Iterable[Range]:
-        yield from (found.flight, found.phase)
-        if phases[0] == phases[1] and found.dwell is not None:  # else the dwell times differ
-            yield found.dwell
+    def bounds(image: Image) -> Iterable[Range]:
+        yield from (image.flight, image.phase)
+        if phases[0] == phases[1] and image.dwell is not None:  # else the dwell times differ
+            yield image.dwell
 
     return to_digits(digits or prover.digits, at_precision, bounds, final=(NoImpact,))
 
@@ -210,19 +210,19 @@ def _possible(prover: Prover, phases: Range, reason: str, cuts: int = 5) -> Poss
     parts = [phases]
     for _ in range(cuts):
         parts = [half for part in parts for half in halves(part)]
-    found: list[tuple[Range, Range]] = []
+    pairs: list[tuple[Range, Range]] = []
     for part in parts:
         sticks = _sticks(prover, part)
         if sticks:
             rest = _after_sticking(prover, part, 12)
-            found.append((rest.flight, rest.phase))
+            pairs.append((rest.flight, rest.phase))
             continue
         first = part if sticks is False else _leaving(prover.system, part)
         flights = FlightBox.plastic(prover.at, first, separating=sticks is None)
         for low, high in _windows(flights, prover.horizon):
             arrival = phase_after(Fraction(0), (first[0] + low, first[1] + high), COVER_BITS)
-            found.append(((low, high), arrival))
-    return PossibleImages(_merged(found), reason)
+            pairs.append(((low, high), arrival))
+    return PossibleImages(_merged(pairs), reason)
 
 
 def _windows(flights: FlightBox, horizon: Fraction) -> tuple[Range, ...]:

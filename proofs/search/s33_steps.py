@@ -70,10 +70,10 @@ class ReboundProver:
 
     def get(self, name: str, kind: type[C]) -> C:
         """Return a conclusion by its name."""
-        found = self.known[name]
-        if not isinstance(found, kind):
+        conclusion = self.known[name]
+        if not isinstance(conclusion, kind):
             raise TypeError(f"{name} is no {kind.__name__}")
-        return found
+        return conclusion
 
     @contextmanager
     def attempt(self) -> Iterator[None]:
@@ -147,10 +147,10 @@ class ReboundProver:
         """Prove that F maps both rectangles across both."""
         images = image_phases(at, self.velocities)
         for ends in sets:
-            known = [image for image in map(images, ends) if image is not None]
-            low, high = min(known, default=(0, 0)), max(known, default=(0, 0))  # f may fall
+            seen = [image for image in map(images, ends) if image is not None]
+            low, high = min(seen, default=(0, 0)), max(seen, default=(0, 0))  # f may fall
             short = float(max(low[1] - sets[0][0], sets[1][1] - high[0]))
-            if len(known) < 2 or short >= 0:
+            if len(seen) < 2 or short >= 0:
                 raise Unproved(f"an edge seems to fall short by {short:.6g}, or to stick")
         with self.attempt():
             return self.across(self.pair(at, sets, cuts), ALL, PLAIN)

@@ -83,9 +83,9 @@ class Prover(Derivation):
 
         return floats_first(made)
 
-    def add_impact(self, found: Seen) -> tuple[str, FirstImpact]:
+    def add_impact(self, seen: Seen) -> tuple[str, FirstImpact]:
         """Prove a first impact (rule first-impact)."""
-        phases, times = texts(found.flights.phases), texts(found.times)
+        phases, times = texts(seen.flights.phases), texts(seen.times)
         return self.derive("first-impact", {"phases": phases, "times": times})
 
     def flights(self, phases: Range) -> FlightBox:
@@ -118,9 +118,9 @@ class Prover(Derivation):
         return self.seen_or_proved(partial(self._avoids, phases, target))
 
     def _avoids(self, phases: Range, target: Range, floats: bool) -> tuple[str, Avoids]:
-        def accept(found: Seen) -> bool:
+        def accept(seen: Seen) -> bool:
             return not any(
-                comes_to(self.at, found.flights.phases, window, target) for window in found.windows
+                comes_to(self.at, seen.flights.phases, window, target) for window in seen.windows
             )
 
         parts = cover_by(
@@ -181,7 +181,7 @@ class Prover(Derivation):
     ) -> tuple[str, StayingSet]:
         """Prove a horseshoe on I0 and I1 of `sets`."""
         cells = list(zip(slopes, (sets.left, sets.right), strict=True))
-        name, found = self.stays([sets.interval], cells, [gap])
-        if not found.is_horseshoe:
+        name, shift = self.stays([sets.interval], cells, [gap])
+        if not shift.is_horseshoe:
             raise Unproved("I is not covered")
-        return name, found
+        return name, shift

@@ -32,6 +32,7 @@ RULES: Mapping[str, str] = MappingProxyType(
         "no-impact": "kernel.outcomes.no_impact",
         "pressed": "kernel.outcomes.pressed",
         "graze": "kernel.outcomes.graze",
+        "trapping": "kernel.trapping.trapping",
         "arc": "kernel.arcs.arc",
         "h-set": "kernel.covers.h_set",
         "covers": "kernel.covers.covers",
