@@ -14,7 +14,7 @@ from intervals import Undecided
 from proofs.methods.extremes import extremes
 from proofs.motion.branch import Branch
 from proofs.motion.covering import bits_needed, cover_by, halves, steps_for
-from proofs.motion.digits import bits_for, to_digits
+from proofs.motion.digits import bits_for, phase_after, to_digits
 from proofs.motion.landing import separation, separation_phase
 from proofs.motion.system import System
 from proofs.motion.witness import (
@@ -30,7 +30,8 @@ from proofs.motion.witness import (
 from proofs.search.evidence import FAILED, Proved, floats_first
 from proofs.search.steps import Prover
 from proofs.trusted.equations import launch_acceleration
-from proofs.trusted.flights import Motion, phase_after
+from proofs.trusted.flights import Motion
+from proofs.trusted.kernel.enclose import enclosed
 from proofs.trusted.numbers import COVER_BITS, Range, hull
 from proofs.trusted.paper.s34_circle.landing import Separation
 
@@ -38,6 +39,7 @@ _NOT_CUT = (
     "the interval seems to contain a grazing phase, or to reach too near to where sticking begins"
 )
 _PIECES = 32  # twelve digits take a dozen, but next to the onset of sticking any number
+_ROOM = 30  # bits beyond those that are asked for
 _COARSE = Fraction(1, 2**12)  # the finest time step where only a set of images is wanted
 
 
@@ -115,19 +117,18 @@ def _sticks(prover: Prover, phases: Range) -> bool | None:
 
 
 def _at_point(prover: Prover, phases: Range) -> Image:
-    impact = floats_first(
-        lambda floats: locate(
-            prover.flights(phases), horizon=prover.horizon, floats=floats
-        ).proved()
+    floats_first(  # or it says why there is none
+        lambda floats: locate(prover.flights(phases), horizon=prover.horizon, floats=floats)
     )
 
     def prove() -> Proved:
         return prover.claimed(prover.point(phases[0])[0])
 
     def at_precision(bits: int) -> Image:
-        motion, time = Branch([("", impact)], bits).flight(*phases)
-        arrival = phase_after(phases[0], time, motion.bits)
-        return Image(time, arrival, motion.slope(time).range, sticking=False, prove=prove)
+        x = enclosed((phases,), bits + _ROOM)
+        time, slope = prover.impact_map.impact(x).range, prover.impact_map.jacobian(x)[0][0].range
+        arrival = phase_after(phases[0], time, bits + _ROOM)
+        return Image(time, arrival, slope, sticking=False, prove=prove)
 
     return to_digits(prover.digits, at_precision, lambda x: (x.flight, x.phase, x.slope))
 
@@ -197,7 +198,7 @@ def _over_interval(prover: Prover, phases: Range) -> Image:
 
     return Image(
         (flights.minimum[0], flights.maximum[1]),
-        phase_after(Fraction(0), arrival, branch.bits + 30),
+        phase_after(Fraction(0), arrival, branch.bits + _ROOM),
         (slopes.minimum[0], slopes.maximum[1]),
         sticking=False,
         prove=prove,

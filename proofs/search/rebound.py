@@ -28,8 +28,7 @@ from proofs.trusted.kernel.differential import Differential, differential_on
 from proofs.trusted.kernel.enclose import enclosed
 from proofs.trusted.kernel.firstzero import NoFirstZero
 from proofs.trusted.numbers import COVER_BITS, Range, bits_for, ceil_text, floor_text, hull
-from proofs.trusted.oscillator import Oscillator, flight
-from proofs.trusted.parameters import Place
+from proofs.trusted.oscillator import Oscillator
 
 Box = tuple[Range, Range]  # phases x velocities
 _PARTS = 128
@@ -70,7 +69,7 @@ def rebound(
     parts on which the first impact is one smooth function. Raises Impossible where a state may
     not exist, NoImpact where none follows up to the horizon, Undecided where nothing can be said.
     """
-    oscillator = flight(((system.eta,) * 2, (system.nu,) * 2, (epsilon,) * 2), latest=horizon)
+    oscillator = Oscillator(((system.eta,) * 2, (system.nu,) * 2, (epsilon,) * 2), horizon)
     box = phases, velocities
     _require_possible(oscillator, box)
     if epsilon == 0:
@@ -88,9 +87,9 @@ def _require_possible(oscillator: Oscillator, box: Box) -> None:
     One state is looked at ever more closely; where its closing speed may be 0, Undecided says so.
     """
     for bits in (COVER_BITS, 4 * COVER_BITS, 16 * COVER_BITS):
-        eta, nu, phi, gamma = (Enclosure.of(*side, bits) for side in (*oscillator.sides[:2], *box))
-        start = launch(oscillator.side, eta, nu, phi)
-        speed = closing(start, gamma) * oscillator.side
+        eta, nu, phi, gamma = (Enclosure.of(*side, bits) for side in (*oscillator.ranges[:2], *box))
+        start = launch(oscillator.formulas.side, eta, nu, phi)
+        speed = closing(start, gamma) * oscillator.formulas.side
         if speed.lo > 0:
             return
         if speed.hi < 0:
@@ -99,7 +98,7 @@ def _require_possible(oscillator: Oscillator, box: Box) -> None:
         if all(low == high for low, high in box):
             raise Undecided("the closing speed is 0, or too close to it to tell its sign")
     low, high = (-start.rate / start.eta).range
-    if oscillator.side < 0:
+    if oscillator.formulas.side < 0:
         bound = f"gamma is at most {floor_text(low)}"
     else:
         bound = f"gamma is at least {ceil_text(high)}"
@@ -153,7 +152,7 @@ def _joined(oscillator: Oscillator, parts: Sequence[NextState]) -> Rebound:
 
 def _proved(oscillator: Oscillator, parts: Sequence[NextState]) -> Proved:
     """Prove what F does on each part (rule differential)."""
-    at, steps = Place(*oscillator.sides), dict[str, dict[str, Any]]()
+    at, steps = oscillator.at, dict[str, dict[str, Any]]()
     for number, (part, bits, _) in enumerate(parts, 1):
         witness = {
             "function": function_of(at),

@@ -28,7 +28,7 @@ from proofs.trusted.kernel.differential import BITS, Differential, differential_
 from proofs.trusted.kernel.rates import PLAIN, Cone
 from proofs.trusted.kernel.rectangles import Rectangle
 from proofs.trusted.numbers import Range
-from proofs.trusted.oscillator import flight
+from proofs.trusted.oscillator import Oscillator
 from proofs.trusted.paper.s33_restitution.rectangles import ALL
 from proofs.trusted.parameters import Parameters, Place
 
@@ -270,7 +270,7 @@ def turns_of(at: Place, box: Box) -> str:
 
 def _is_smooth(at: Place, box: Box) -> bool:
     try:
-        differential_on(flight(at.sides), box, (0,))
+        differential_on(Oscillator(at.sides), box, (0,))
     except FAILED:
         return False
     return True

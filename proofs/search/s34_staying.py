@@ -9,15 +9,15 @@ from fractions import Fraction
 from itertools import pairwise
 
 from intervals import Undecided
-from proofs.motion.brackets import impact_time, middle
+from proofs.motion.brackets import middle
 from proofs.motion.candidate import next_impact
-from proofs.motion.witness import locate
+from proofs.motion.digits import phase_after
 from proofs.search.evidence import FAILED, Proof
 from proofs.search.steps import Prover
-from proofs.trusted.flights import Motion, phase_after
+from proofs.trusted.kernel.enclose import enclosed
 from proofs.trusted.kernel.laps import SlopeRange
 from proofs.trusted.kernel.staying import StayingSet
-from proofs.trusted.numbers import Range, bits_for, within
+from proofs.trusted.numbers import Range, within
 
 _FINE = Fraction(1, 1000)
 _COARSE = Fraction(1, 100)
@@ -246,8 +246,6 @@ def _newton(prover: Prover, cells: Sequence[Range], accuracy: Fraction) -> Fract
 
 def _value(prover: Prover, phase: Fraction) -> tuple[Fraction, Fraction]:
     """Return about (f(phase), f'(phase))."""
-    launch = prover.flights((phase, phase))
-    seen = locate(launch, horizon=prover.horizon)
-    time = impact_time(launch, seen.windows[0], prover.bits)
-    slope = Motion(prover.at, (phase, phase), bits_for(time)).slope(time)
-    return phase_after(phase, time, prover.bits)[0], middle(slope)
+    x = enclosed(((phase, phase),), prover.bits)
+    time = prover.impact_map.impact(x).range
+    return phase_after(phase, time, prover.bits)[0], middle(prover.impact_map.jacobian(x)[0][0])

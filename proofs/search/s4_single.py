@@ -60,7 +60,7 @@ class Single:
             n=str(orbit.n),
             phase=texts(phase),
             early=str(_inside(motion, orbit.n)) if early else None,
-            flight=self.prover.impact(phase)[0] if first else None,
+            flight=self.prover.impacts(phase)[0][0] if first else None,
         )
 
     def eta_windows(self, nu: Fraction, low: Fraction) -> str:
