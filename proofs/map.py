@@ -192,7 +192,7 @@ class Map:
 
         (moving,) = self._moving(parameter, 1)
         file = self.at(**parameter)._derivation()
-        file = branches(file, self.function, moving, self.region())
+        file = branches(file, self.function, moving, self.region(), share=self._share)
         return theorem_of(file, [*file.steps])
 
     def folds(self, **parameters: Ends) -> Theorem:
@@ -213,7 +213,7 @@ class Map:
 
         one, two = self._moving(parameters, 2)
         file = self.at(**parameters)._derivation()
-        file = curves(file, self.function, (one, two), multiplier, self.region())
+        file = curves(file, self.function, (one, two), multiplier, self.region(), share=self._share)
         return theorem_of(file, [*file.steps])
 
     def _moving(self, parameters: Mapping[str, Ends], count: int) -> list[Any]:

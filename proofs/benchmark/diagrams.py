@@ -13,11 +13,10 @@ from typing import TYPE_CHECKING, Literal
 
 from proofs.benchmark.curves import Curve, Point
 from proofs.benchmark.peers import CODAC, FLINT, IV
-from proofs.report.markup import svg_text
+from proofs.report.figures.style import Axes, style, svg_of
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
-    from matplotlib.axes import Axes
 
 _OURS = ("#08519c", "o"), ("#6baed6", "<"), ("#4292c6", ">")  # colour, mark
 _OTHERS = {  # by the end of their names
@@ -61,11 +60,6 @@ def svg(diagram: Diagram) -> str:
 
     ImportError without matplotlib.
     """
-    import matplotlib as mpl
-
-    mpl.use("svg")
-    from matplotlib import pyplot as plt
-
     panels: dict[str, list[Curve]] = {}
     for curve in diagram.curves:
         form = curve.way.partition(", ")[0] if diagram.panels else ""
@@ -73,14 +67,16 @@ def svg(diagram: Diagram) -> str:
             panels.setdefault(form, []).append(curve)
     columns, rows = min(len(panels), 3), ceil(len(panels) / 3)
     size = (9.5, 2.7 * rows + 1.0) if diagram.panels else (7.5, 5.0)
-    with mpl.rc_context({"svg.hashsalt": diagram.name, "font.size": 9, "legend.fontsize": 8}):
-        figure = plt.figure(figsize=size, layout="constrained")
+    with style(diagram.name):
+        from matplotlib import pyplot as plt
+
+        figure = plt.figure(figsize=size)
         grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).flat
-        known: dict[str, Artist] = {}
+        artists: dict[str, Artist] = {}
         for axes, (form, curves) in zip(grid, panels.items(), strict=False):
             axes.set(xscale="log", yscale="log", title=form)
             axes.grid(alpha=0.3)
-            known |= _draw(axes, diagram, curves)
+            artists |= _draw(axes, diagram, curves)
         for axes in grid[len(panels) :]:
             axes.set_visible(False)
         if diagram.against == "error":
@@ -89,30 +85,30 @@ def svg(diagram: Diagram) -> str:
         below = min(columns * (rows - 1) + columns // 2, len(panels) - 1)
         grid[below].set_xlabel(diagram.across)
         figure.supylabel("time [s]", fontsize=9)
-        names = list(known)
+        names = list(artists)
         if len(names) > 1:
             wide = 4 if max(map(len, names)) <= 20 else 2
-            figure.legend(known.values(), names, loc="outside lower center", ncols=wide)
-        return svg_text(figure)
+            figure.legend(artists.values(), names, loc="outside lower center", ncols=wide)
+        return svg_of(figure, diagram.name, diagram.title)
 
 
 def _draw(axes: Axes, diagram: Diagram, curves: list[Curve]) -> dict[str, Artist]:
     """Draw curves into a panel; return what is drawn by name."""
-    known: dict[str, Artist] = {}
+    artists: dict[str, Artist] = {}
     own = cycle(_OURS)
     for curve in curves:
-        colour, mark = style(curve.way) or next(own)
+        colour, mark = of_peer(curve.way) or next(own)
         points = [(x, p) for p in curve.points if (x := diagram.place(p)) > 0]
         if points:
             name = curve.way.rpartition(", ")[2] if diagram.panels else curve.way
             places, times = zip(*((x, median(p.seconds)) for x, p in points), strict=True)
             line = "-" if curve.against else "none"  # what has no order is not joined
-            (known[name],) = axes.plot(places, times, mark, color=colour, ls=line, ms=4.5, lw=1)
+            (artists[name],) = axes.plot(places, times, mark, color=colour, ls=line, ms=4.5, lw=1)
         for x, p in points:
             axes.plot([x, x], [min(p.seconds), max(p.seconds)], color=colour, lw=0.6)
-    return known
+    return artists
 
 
-def style(way: str) -> tuple[str, str] | None:
-    """Return colour and mark of others; None if the way is ours."""
-    return next((one for end, one in _OTHERS.items() if way.endswith(end)), None)
+def of_peer(way: str) -> tuple[str, str] | None:
+    """Return colour and mark of another library; None if the way is ours."""
+    return next((marked for end, marked in _OTHERS.items() if way.endswith(end)), None)

@@ -189,6 +189,8 @@ def _options(arguments: list[str] | None) -> Namespace:
     share(parser, "--out", "--json", "--quiet")
     options = parser.parse_args(arguments)
     options.parser = parser
+    if options.seconds <= 0:
+        parser.error(f"some seconds are expected, not {show(options.seconds)}")
     if options.figure and not options.out:
         parser.error("--figure goes to the folder of --out")
     return options

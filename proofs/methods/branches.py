@@ -24,7 +24,7 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.trees import formula
 from proofs.trusted.numbers import Range
 
-_LONGEST = 8  # steps of a branch, at the least
+_LONGEST, _PIECES = 8, 96  # steps of a branch, at the least; pieces of all of them, at the most
 _GRID, _SEEDS, _TRIES, _NEAR = 24, 60, 6, 1e-6
 _NAME = "G"
 
@@ -64,8 +64,8 @@ def residual(
 
 
 def _require_one(function: Mapping[str, Any]) -> dict[str, Any]:
-    if "maps" in function:
-        raise Undecided("branches are followed of maps with one wall, or formulas")
+    if "maps" in function or "field" in function:
+        raise Undecided("branches are followed of formulas, and of one wall with a closed form")
     return dict(function)
 
 
@@ -103,16 +103,19 @@ def _read(function: Any, renamed: Mapping[str, str]) -> Any:
 
 
 def branches(
-    file: Derivation, function: str, moving: Moving, region: Sequence[Range]
+    file: Derivation, function: str, moving: Moving, region: Sequence[Range], *, share: float = 1
 ) -> Derivation:
-    """Return a file whose steps are the branches of fixed points that are found at the low end."""
+    """Return a file whose steps are the branches of fixed points that are found at the low end.
+
+    share: of the usual work.
+    """
     low = moving.range[0]
     sampled = _at(file, function, {moving.name: low})
     starts = [
         ([*map(Fraction, cycle.points[0].tolist()), low], turns)
         for cycle, turns in _fixed(sampled, region)
     ]
-    return _followed(sampled, file.functions[function], [moving], starts)
+    return _followed(sampled, file.functions[function], [moving], starts, share=share)
 
 
 def curves(
@@ -121,10 +124,13 @@ def curves(
     moving: tuple[Moving, Moving],
     multiplier: int,
     region: Sequence[Range],
+    *,
+    share: float = 1,
 ) -> Derivation:
     """Return a file whose steps are curves along which fixed points have the multiplier 1, or -1.
 
     They are followed along the second parameter, from points that are found at its low end.
+    share: of the usual work.
     """
     (name, (low, high)), (other, (begin, _)) = moving
     near = []
@@ -135,7 +141,9 @@ def curves(
             size = abs(np.linalg.det(cycle.derivative - multiplier * np.eye(len(region))))
             near.append((size, [*map(Fraction, cycle.points[0].tolist()), value, begin], turns))
     starts = [(point, turns) for _, point, turns in sorted(near, key=lambda each: each[0])[:_TRIES]]
-    return _followed(there, file.functions[function], moving, starts, multiplier)
+    return _followed(
+        there, file.functions[function], moving, starts, share=share, multiplier=multiplier
+    )
 
 
 def _at(file: Derivation, function: str, values: Mapping[str, Fraction]) -> Sampled:
@@ -156,6 +164,8 @@ def _followed(
     function: Mapping[str, Any],
     moving: Sequence[Moving],
     starts: Sequence[tuple[Sequence[Fraction], Sequence[int]]],
+    *,
+    share: float,
     multiplier: int | None = None,
 ) -> Derivation:
     """Return a file with the arcs from some points, each once; sampled: for its angles."""
@@ -166,22 +176,24 @@ def _followed(
         {name: residual(function, names, turns, multiplier) for turns, name in kinds.items()}
     )
     seen: list[Floats] = []
+    left, reason = int(_PIECES * share), "no orbit is found"
     for point, turns in starts:
         name, reason = kinds[tuple(turns)], "nothing is found"
         map_, axis = file.map(name), len(point) - 1
         try:
             start = newton(map_, point, axis=axis)[0]
             here = np.array(start, float)
-            if any(_is_same(sampled, here, each) for each in seen):
+            if not left or any(_is_same(sampled, here, each) for each in seen):
                 continue
             seen.append(here)
-            pieces = follow(map_, axis, start, high, step=(high - low) / _LONGEST)
+            pieces = follow(map_, axis, start, high, step=(high - low) / _LONGEST, most=left)
+            left -= len(pieces)
             witness = {"function": name, "axis": map_.variables[axis], "points": []}
             file.add("arc", {**witness, "pieces": [piece.witness for piece in pieces]})
         except (IntervalError, Unproved) as error:
             reason = str(error)
     if not file.steps:
-        raise Undecided(f"no curve is followed: {reason if starts else 'no orbit is found'}")
+        raise Undecided(f"no curve is followed: {reason}")
     return file
 
 

@@ -47,7 +47,7 @@ def compiled(tape: Tape, roots: Sequence[int]) -> Function:
         if op == "variable":
             value = f"x[{int(datum)}]"
         elif op == "number":
-            value = repr(float(datum))
+            value = f"np.float64({float(datum)!r})"  # which divides by 0, as arrays do
         elif op == "pi":
             value = "np.pi"
         elif op == "^":
@@ -116,7 +116,12 @@ class Sampled:
     @property
     def starts(self) -> int:
         """The number of points at random for a search: fewer of a flow, where each is dear."""
-        return _FEW if any(isinstance(part, Flow) for part in self.parts) else _STARTS
+        return _FEW if self.has_flows else _STARTS
+
+    @property
+    def has_flows(self) -> bool:
+        """Whether a part of it is a flow without a closed form, which takes long."""
+        return any(isinstance(part, Flow) for part in self.parts)
 
     @property
     def parts(self) -> tuple[Map, ...]:
@@ -160,19 +165,52 @@ class Sampled:
 
     def turns(self, x: Floats) -> Floats:
         """Return the whole periods in the angles of points."""
-        return np.floor(x / self.periods[:, None])
+        with np.errstate(invalid="ignore"):
+            return np.floor(x / self.periods[:, None])
 
     def expanded(self, x: Floats) -> tuple[Floats, Floats]:
         """Return the images of points, of the shape (points, n), and the derivatives there.
 
-        All of them in one call, since a call costs more than its points.
+        By the derivatives of the formulas; of flows, by differences.
         """
+        if self.has_flows:
+            return self._differences(x)
+        product = np.broadcast_to(np.eye(len(x)), (x.shape[1], len(x), len(x)))
+        with np.errstate(all="ignore"):
+            for part in self.parts:
+                x, slopes = self._expanded(part, x)
+                product = slopes @ product
+        return x.T, product
+
+    def _differences(self, x: Floats) -> tuple[Floats, Floats]:
+        """Do so in one call, since a call costs more than its points."""
         n, count = x.shape
         moves = [s * unit[:, None] for unit in np.eye(n) for s in (_APART, -_APART)]
         ends = self(np.concatenate([x, *(x + move for move in moves)], axis=1))
         image, *others = ends.reshape(n, 2 * n + 1, count).swapaxes(0, 1)
         columns = [(a - b) / (2 * _APART) for a, b in zip(others[::2], others[1::2], strict=True)]
         return image.T, np.moveaxis(np.array(columns), 2, 0).swapaxes(1, 2)
+
+    def _expanded(self, part: Map, x: Floats) -> tuple[Floats, Floats]:
+        """Return the images under one map, and the derivatives, of the shape (points, m, n).
+
+        Of a flight F_x - F_t gap_x / gap_t, by the implicit function theorem.
+        """
+        n = len(x)
+        if isinstance(part, Formulas):
+            slopes = [part.tape.derivative(root, k) for root in part.roots for k in range(n)]
+            values = self._evaluated(part, (*part.roots, *slopes), [*x])
+            image, rates = np.split(values, [len(part.roots)])
+            return image, np.moveaxis(rates.reshape(len(image), n, -1), 2, 0)
+        if not isinstance(part, Flight):
+            raise TypeError(f"no derivatives of a {type(part).__name__}")
+        roots = (part.gaps[0].orders[0], *part.outcome)
+        slopes = [slope for root in roots for slope in part.slopes(root, range(n))]
+        values = self._evaluated(part.formulas, (*roots, *slopes), [*x, self.times(part, x)])
+        images, rates = np.split(values, [len(roots)])
+        (*gap, fall), *rows = rates.reshape(len(roots), n + 1, -1)
+        own = [row[:n] - row[n] * np.array(gap) / fall for row in rows]
+        return images[1:], np.moveaxis(np.array(own), 2, 0)
 
     def _images(self, map_: Map, x: Floats) -> Floats:
         if isinstance(map_, Composition):
@@ -247,6 +285,11 @@ class Power(Sampled):
     """An iterate of a map, in floating point."""
 
     power: int = 1
+
+    @property
+    def parts(self) -> tuple[Map, ...]:
+        """The maps of which it is made, in their order."""
+        return super().parts * self.power
 
     def __call__(self, x: Floats) -> Floats:
         """Return the images."""

@@ -108,8 +108,8 @@ def add_entropy(file: Derivation, graph: str, longest: int) -> str:
     _, length, growth = best
     if growth < 1:
         raise Undecided("the graph has no closed path, or the vector shows none")
-    found = {"length": str(length), "vector": list(map(str, vector)), "growth": str(growth)}
-    return file.add("entropy", {"graph": graph, **found})
+    bound = {"length": str(length), "vector": list(map(str, vector)), "growth": str(growth)}
+    return file.add("entropy", {"graph": graph, **bound})
 
 
 def _perron(edges: Sequence[tuple[int, int]], count: int) -> list[int]:

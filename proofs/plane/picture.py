@@ -8,19 +8,16 @@ from collections.abc import Mapping
 from fractions import Fraction
 from itertools import cycle
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from proofs.plane.overlay import GRAZING, Line, Overlay, holds, overlay
 from proofs.plane.store import Store
 from proofs.plane.summary import joined, kinds, merged, words
 from proofs.report.figures import style
+from proofs.report.figures.style import Axes, Drawing
 from proofs.report.layout import percent
 from proofs.trusted.atlas import NOT_YET, Region
 from proofs.trusted.verdicts import Verdict
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure as Drawing
 
 SHADES = MappingProxyType(
     {

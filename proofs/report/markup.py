@@ -1,13 +1,8 @@
-"""Tables and pictures as text that is the same from run to run."""
+"""Tables as text."""
 
 from __future__ import annotations
 
-import io
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from collections.abc import Sequence
 
 
 def markdown_table(rows: Sequence[Sequence[str]], numbers_from: int = 99) -> list[str]:
@@ -28,35 +23,3 @@ def markdown_table(rows: Sequence[Sequence[str]], numbers_from: int = 99) -> lis
     rule = "|" + "|".join("-" * (width + 2) for width in widths) + "|"
     header, *others = rows
     return [line(header), rule, *map(line, others)]
-
-
-def drawn(
-    salt: str,
-    size: tuple[float, float],
-    draw: Callable[[Any], None],
-    rows: int = 1,
-    columns: int = 1,
-) -> str:
-    """Return as SVG what `draw` puts on the axes that it is given; matplotlib is imported here.
-
-    salt: of the names inside the SVG.
-    """
-    import matplotlib as mpl
-
-    mpl.use("svg")
-    from matplotlib import pyplot as plt
-
-    with mpl.rc_context({"svg.hashsalt": salt, "font.size": 9}):
-        figure, axes = plt.subplots(rows, columns, figsize=size, layout="constrained")
-        draw(axes)
-        return svg_text(figure)
-
-
-def svg_text(figure: Figure) -> str:
-    """Return a figure as SVG without the date, and close it. Set svg.hashsalt before."""
-    from matplotlib import pyplot as plt
-
-    file = io.StringIO()
-    figure.savefig(file, format="svg", metadata={"Date": None})
-    plt.close(figure)
-    return "\n".join(line.rstrip() for line in file.getvalue().splitlines()) + "\n"

@@ -6,24 +6,22 @@ Horseshoes and attractors are found in floating point; what is not proved then i
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from fractions import Fraction
 from functools import partial
 from types import MappingProxyType
 
 from intervals import Undecided
-from proofs.motion.system import System
-from proofs.motion.witness import HORIZON
 from proofs.search.beyond_attractors import Run, settled, stable, sticking
 from proofs.search.budget import EFFORT, FASTEST, Budget
-from proofs.search.evidence import FAILED, Evidence, Proof, Tell, search_each
+from proofs.search.evidence import FAILED, Evidence, Proof, search_each
 from proofs.search.loops import loops
+from proofs.search.request import Request, proving
 from proofs.search.s34_absorbing import Partition
 from proofs.search.s34_chaos import prove_entropy
 from proofs.search.s34_circle import prove_longest
 from proofs.search.shifts import full_shifts, pieces
-from proofs.search.steps import Prover
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.beyond.returning import StickingMotion, SticksOnce
 from proofs.trusted.paper.s34_circle.circle import MAJORITY
@@ -33,31 +31,24 @@ _TURNS, _DEPTH = 150, 1  # of the flights, and of the tower of states, in coveri
 _GAIN, _SPARE, _PIECES, _LONGEST_FLIGHT = 2e-3, 1e-2, 150, 200  # see `Partition`
 
 
-def prove(
-    of: Parameters,
-    claims: Sequence[str],
-    *,
-    digits: int = 30,
-    tell: Tell = lambda stage: None,
-    effort: int = EFFORT,
-    seconds: float | Fraction = math.inf,
-) -> Evidence:
+@proving
+def prove(request: Request, effort: int = EFFORT, seconds: float | Fraction = math.inf) -> Evidence:
     """Prove what the claims asked for rest on, as far as it goes: see `Budget`."""
-    prover = Prover(System(of.eta, of.nu), digits, HORIZON)
-    run = Run(prover, Budget(of.eta, effort, seconds))
-    found = Evidence(prover.steps, {claim: [] for claim in claims})
-    if too_fast(of, found, _SEARCHES):
-        return found
+    prover = request.prover()
+    run = Run(prover, Budget(request.of.eta, effort, seconds))
+    evidence = Evidence(prover.steps, {claim: [] for claim in request.claims})
+    if too_fast(request.of, evidence, _SEARCHES):
+        return evidence
     within = partial(run.budget.attempt, prover.undone)
-    return search_each(found, claims, _SEARCHES, tell, run, within=within)
+    return search_each(evidence, request.claims, _SEARCHES, request.tell, run, within=within)
 
 
-def too_fast(of: Parameters, found: Evidence, searches: Iterable[str]) -> bool:
+def too_fast(of: Parameters, evidence: Evidence, searches: Iterable[str]) -> bool:
     """Whether eta is too large for any search, which is noted at each claim that asks for one."""
     if of.eta <= FASTEST:
         return False
     note = f"for eta > {FASTEST} flights are not followed"
-    found.notes |= dict.fromkeys(found.proofs.keys() & set(searches), note)
+    evidence.notes |= dict.fromkeys(evidence.proofs.keys() & set(searches), note)
     return True
 
 
@@ -116,7 +107,7 @@ def _shares(run: Run) -> Proof:
     with suppress(*FAILED):
         never = prove_longest(run.prover)
     cells, impacts = run.budget.grid // 2, run.budget.impacts // 8
-    known = Partition(
+    partition = Partition(
         run.prover,
         arc,
         never,
@@ -127,7 +118,7 @@ def _shares(run: Run) -> Proof:
         spare=_SPARE,
         pieces=_PIECES,
     )
-    return [arc, known.prove(), *([] if never is None else [never])]
+    return [arc, partition.prove(), *([] if never is None else [never])]
 
 
 _SEARCHES: Mapping[str, tuple[str, Callable[[Run], Proof]]] = MappingProxyType(

@@ -13,10 +13,10 @@ from types import MappingProxyType
 from intervals import Undecided
 from proofs.motion.chatter import BITS, Pushing, around
 from proofs.motion.system import System
-from proofs.motion.witness import HORIZON
 from proofs.search.beyond import too_fast
 from proofs.search.budget import EFFORT, Budget
-from proofs.search.evidence import FAILED, Evidence, Proof, Tell, search_each
+from proofs.search.evidence import FAILED, Evidence, Proof, search_each
+from proofs.search.request import Request, proving
 from proofs.search.s33_cycles import around_image, stable_cycles
 from proofs.search.s33_moving import grown
 from proofs.search.s33_rectangles import Sets
@@ -24,35 +24,29 @@ from proofs.search.s33_steps import ReboundProver
 from proofs.search.s34_border import witness
 from proofs.search.s34_circle import prove_arc, prove_longest
 from proofs.search.shifts import Symbol, cells, families, pieces, rounded_out, symbols
-from proofs.search.steps import Prover
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s34_circle.persistence import landed
-from proofs.trusted.parameters import Parameters, Place
+from proofs.trusted.parameters import Place
 
 _MOST_IMPACTS = 30
 _SPARES = (0.05, 0.02, 0.01, 0.005, 0.002, 0.001)  # by how much edges overshoot, from the most
 _AROUND = Fraction(1, 10**6)  # of states around the first impact
 
 
-def prove(
-    of: Parameters,
-    claims: Sequence[str],
-    *,
-    digits: int = 30,
-    tell: Tell = lambda stage: None,
-    effort: int = EFFORT,
-    seconds: float | Fraction = math.inf,
-) -> Evidence:
+@proving
+def prove(request: Request, effort: int = EFFORT, seconds: float | Fraction = math.inf) -> Evidence:
     """Prove what the claims asked for rest on, as far as it goes."""
-    prover = ReboundProver(of, Prover(System(of.eta, of.nu), digits, HORIZON))
-    budget = Budget(of.eta, effort, seconds)
-    found = Evidence(prover.steps, {claim: [] for claim in claims})
-    if not too_fast(of, found, _SEARCHES) and of.epsilon is not None:
+    prover = ReboundProver(request.of, request.prover())
+    budget = Budget(request.of.eta, effort, seconds)
+    evidence = Evidence(prover.steps, {claim: [] for claim in request.claims})
+    if not too_fast(request.of, evidence, _SEARCHES) and request.of.epsilon is not None:
         within = partial(budget.attempt, prover.attempt)
-        search_each(found, claims, _SEARCHES, tell, prover, budget, within=within)
-    return found
+        search_each(
+            evidence, request.claims, _SEARCHES, request.tell, prover, budget, within=within
+        )
+    return evidence
 
 
 def _chaos(prover: ReboundProver, budget: Budget) -> Proof:
@@ -115,11 +109,11 @@ def _chattering(prover: ReboundProver, epsilon: Fraction) -> tuple[str, Conclusi
     pushing, first = Pushing(arc.at, arc.phase[0]), around(arc, _AROUND)
     box, impacts = list(first), list[str]()
     while len(impacts) < _MOST_IMPACTS:
-        name, found = prover.state(at, tuple(box))
+        name, image = prover.state(at, tuple(box))
         impacts.append(name)
-        box = around_image(found)
+        box = around_image(image)
         with suppress(*FAILED):
-            state = landed(arc, (found.values[0], found.values[1]), BITS)
+            state = landed(arc, (image.values[0], image.values[1]), BITS)
             cell = pushing.settle((epsilon, epsilon), *state)
             made = witness(separation, first, [cell], impacts)
             name = prover.derive("superstable-motion", **made)

@@ -19,7 +19,8 @@ from proofs.methods.formulas import enclosed
 from proofs.methods.lemmas import krawczyk, newton, require_zero, written
 from proofs.motion.single_flight import touching_once
 from proofs.search.derivations import Steps
-from proofs.search.evidence import FAILED, Evidence, Tell
+from proofs.search.evidence import FAILED, Evidence
+from proofs.search.request import Request, proving
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.arcs import Arc
 from proofs.trusted.kernel.conclusion import Conclusion
@@ -40,7 +41,6 @@ from proofs.trusted.paper.beyond.grazing import (
     touch,
 )
 from proofs.trusted.paper.beyond.meetings import Meeting, level
-from proofs.trusted.parameters import Parameters
 
 _MOST = 2  # table periods
 _WIDEST = 2  # eta
@@ -201,7 +201,7 @@ class Curves:
             )
         require_zero(formula, around, matrix)
         nu = self._amplitude(curve.n, curve.side, box)
-        found = Meeting(curve, other, box, nu, signs[0] < 0)
+        meeting = Meeting(curve, other, box, nu, signs[0] < 0)
         step = self._add(
             "grazing-meets",
             curve=name,
@@ -210,7 +210,7 @@ class Curves:
             box=witness,
             amplitude=texts(nu),
         )
-        self.meetings.append((step, found))
+        self.meetings.append((step, meeting))
 
 
 def _sign(curve: GrazingCurve, other: str, piece: Piece) -> int:
@@ -236,26 +236,21 @@ def _guesses(pieces: Sequence[Piece]) -> Iterator[list[Fraction]]:
                 break
 
 
-def prove(
-    of: Parameters,
-    asked: Sequence[str],
-    *,
-    digits: int = 30,
-    tell: Tell = lambda stage: None,
-) -> Evidence:
+@proving
+def prove(request: Request) -> Evidence:
     """Prove closed forms of folds and flips, and follow the curves of grazing."""
-    formulas = Steps(digits)
+    formulas = Steps(request.digits)
     evidence = Evidence(formulas.steps)
-    for claim, stage, found in (("C1", "folds and flips", curves), ("C4", "sticking", sticking)):
-        if claim in asked:
-            tell(stage)
-            proved = [formulas.prove(need) for need in found.needs]
+    for claim, stage, theorem in (("C1", "folds and flips", curves), ("C4", "sticking", sticking)):
+        if request.asks(claim):
+            request.tell(stage)
+            proved = [formulas.prove(need) for need in theorem.needs]
             evidence.proofs[claim] = [each for each in proved if each is not None]
-    if {*asked} & {"C2", "C3"}:
-        all_of_it = Curves(of.epsilon or Fraction(0), formulas.steps)
+    if request.asks("C2", "C3"):
+        all_of_it = Curves(request.of.epsilon or Fraction(0), formulas.steps)
         for n in range(1, _MOST + 1):
             for run in seen_curves(n, all_of_it.epsilon):
-                tell(f"grazing for n = {n}, eta from {show(run[0].eta)}")
+                request.tell(f"grazing for n = {n}, eta from {show(run[0].eta)}")
                 with suppress(*FAILED):
                     all_of_it.grazing(n, run)
         evidence.proofs |= {"C2": all_of_it.found, "C3": all_of_it.meetings}

@@ -15,9 +15,10 @@ from typing import Any
 
 from intervals import Interval, Undecided, decimal_bounds
 from proofs.methods.derivation import concluded
-from proofs.methods.formulas import Tree, values
-from proofs.methods.lemmas import bounds_of, solution_witness, witness_of
-from proofs.search.evidence import Evidence, Tell
+from proofs.methods.formulas import values
+from proofs.methods.lemmas import solution_witness, witness_of
+from proofs.search.evidence import Evidence
+from proofs.search.request import Request
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel import trees
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -33,7 +34,6 @@ from proofs.trusted.paper.formulas import (
     Lemma,
     Unknowns,
 )
-from proofs.trusted.parameters import Parameters
 from proofs.trusted.verdicts import Row
 
 SPARE_BITS = 40
@@ -48,8 +48,8 @@ def enclose(formula: str, digits: int, **point: Fraction) -> Range:
     formulas = on_tape(trees.formula(formula))
     bits = digits * 4 + SPARE_BITS + sum(map(size, point.values()))
     inputs = [Interval(point.get(name, 0), precision=bits) for name in formulas.variables]
-    (found,) = values(formulas, inputs)
-    lower, upper = decimal_bounds(found.inf, found.sup, digits)
+    (value,) = values(formulas, inputs)
+    lower, upper = decimal_bounds(value.inf, value.sup, digits)
     return Fraction(lower), Fraction(upper)
 
 
@@ -87,49 +87,37 @@ class Steps:
             )
         except Undecided:
             return
-        found = Expressions(expressions, wanted.lemmas)
-        self._add(wanted, found, "formula-solution", solution_witness(found))
+        solution = Expressions(expressions, wanted.lemmas)
+        self._add(wanted, solution, "formula-solution", solution_witness(solution))
 
     def _value(self, asked: Asked) -> None:
-        tree: Tree = None
-        if all(low == high for _, (low, high) in asked.box):
-            point = {variable.name: low for variable, (low, _) in asked.box}
-            bounds = enclose(str(asked.function), self.digits, **point)
-        else:
-            box = {variable.name: side for variable, side in asked.box}
-            bounds, tree = bounds_of(str(asked.function), box, asked.signs[0])
+        point = {variable.name: low for variable, (low, _) in asked.box}
+        bounds = enclose(str(asked.function), self.digits, **point)
         witness = {
             "function": str(asked.function),
             "box": {variable.name: texts(side) for variable, side in asked.box},
-            "tree": tree,
+            "tree": None,
             "bounds": texts(bounds),
         }
-        found = Value(asked.function, asked.box, bounds)
-        self._add(asked, found, "formula-value", witness)
+        value = Value(asked.function, asked.box, bounds)
+        self._add(asked, value, "formula-value", witness)
 
     def _add(
-        self, wanted: Lemma | Asked, found: Conclusion, rule: str, witness: dict[str, Any]
+        self, wanted: Lemma | Asked, conclusion: Conclusion, rule: str, witness: dict[str, Any]
     ) -> None:
         name = f"{rule.removeprefix('formula-')}-{len(self.steps) + 1}"
         self.steps[name] = {"rule": rule, "witness": witness}
-        self.names[wanted] = (name, found)
+        self.names[wanted] = (name, conclusion)
 
 
 def prove_rows(
-    rows: Sequence[Row],
-    of: Parameters,
-    claims: Sequence[str],
-    *,
-    digits: int = 30,
-    solvers: Solvers = MappingProxyType({}),
-    tell: Tell = lambda stage: None,
+    request: Request, rows: Sequence[Row], solvers: Solvers = MappingProxyType({})
 ) -> Evidence:
     """Prove what the claims asked for follow from, each lemma once, whatever the parameters."""
-    del of
-    steps, evidence = Steps(digits, solvers), Evidence()
+    steps, evidence = Steps(request.digits, solvers), Evidence()
     for row in rows:
-        if row.id in claims:
-            tell(f"formulas of {row.id}")
+        if request.asks(row.id):
+            request.tell(f"formulas of {row.id}")
             proved = [steps.prove(each) for each in row.needs]
             evidence.proofs[row.id] = [each for each in proved if each is not None]
     evidence.steps = steps.steps

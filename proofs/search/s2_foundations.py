@@ -6,7 +6,6 @@ witnesses; A1 also names phases of the parameters given that never impact again.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from typing import Any
 
 from intervals import DomainError, Undecided
@@ -14,25 +13,21 @@ from proofs.motion.system import System
 from proofs.motion.witness import HORIZON
 from proofs.search.derivations import prove_rows
 from proofs.search.evidence import Evidence, Proof
+from proofs.search.request import Request, proving
 from proofs.search.s34_circle import prove_longest
 from proofs.search.steps import Prover
 from proofs.trusted.paper import s2_foundations, s7_appendix
 from proofs.trusted.parameters import Parameters
 
 
-def prove(
-    of: Parameters,
-    claims: Sequence[str],
-    *,
-    digits: int = 30,
-    tell: Callable[[str], None] = lambda stage: None,
-) -> Evidence:
+@proving
+def prove(request: Request) -> Evidence:
     """Prove what the claims asked for follow from."""
     rows = (*s2_foundations.ROWS, *s7_appendix.ROWS)
-    evidence = prove_rows(rows, of, claims, digits=digits, tell=tell)
-    if "A1" in claims:
-        tell("phases without a next impact")
-        evidence.proofs["A1"] += unending(of, evidence.steps)
+    evidence = prove_rows(request, rows)
+    if request.asks("A1"):
+        request.tell("phases without a next impact")
+        evidence.proofs["A1"] += unending(request.of, evidence.steps)
     return evidence
 
 

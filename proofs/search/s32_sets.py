@@ -6,7 +6,7 @@ on the orbits of the ends of I; H12, H14, H15 and H17, on the linear set, on Mor
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import suppress
 from fractions import Fraction
 from functools import cache
@@ -14,9 +14,9 @@ from itertools import islice
 
 from proofs.motion.candidate import next_impact
 from proofs.motion.system import System
-from proofs.motion.witness import HORIZON
 from proofs.search.evidence import FAILED, Evidence, Proof
 from proofs.search.repair import nearest_sets
+from proofs.search.request import Request, proving
 from proofs.search.steps import Prover
 from proofs.trusted.kernel.itineraries import follow
 from proofs.trusted.kernel.laps import SlopeRange
@@ -47,8 +47,8 @@ def _staying_in(sets: Parameters, of: Parameters, prover: Prover) -> Proof:
     slopes: dict[str, SlopeRange] = {}
     for domain in (sets.left, sets.right):
         inside = {point for point in extra if domain[0] < point < domain[1]}
-        name, found = prover.slopes(sorted({*domain, *inside}))
-        slopes[name] = found
+        name, slope_range = prover.slopes(sorted({*domain, *inside}))
+        slopes[name] = slope_range
     gap = prover.avoids(sets.gap, sets.interval)
     base, proved = prover.horseshoe(list(slopes.items()), gap, sets)
     proof: Proof = [(base, proved)]
@@ -66,31 +66,26 @@ def _nearby(sets: Parameters, start: Fraction) -> Iterator[Fraction]:
         if not any(low < phase < high for low, high in (sets.left, sets.right)):
             return
         yield from {phase - reach, phase + reach}
-        found = next_impact(system, float(phase))
-        if found is None:
+        impact = next_impact(system, float(phase))
+        if impact is None:
             return
-        phase = round(Fraction(found[1]) / _NEARBY) * _NEARBY
+        phase = round(Fraction(impact[1]) / _NEARBY) * _NEARBY
         reach = _NEARBY + round(reach * 2 * sets.slopes[1] / _NEARBY) * _NEARBY
 
 
-def prove(
-    of: Parameters,
-    claims: Sequence[str],
-    *,
-    digits: int = 30,
-    tell: Callable[[str], None] = lambda stage: None,
-) -> Evidence:
+@proving
+def prove(request: Request) -> Evidence:
     """Prove what the claims asked for rest on, once each."""
-    prover = Prover(System(of.eta, of.nu), max(digits, LEAST_DIGITS), HORIZON)
+    prover = request.prover(least_digits=LEAST_DIGITS)
     evidence = Evidence()
-    if set(claims).intersection(_INVARIANT):
-        tell("a horseshoe around I, and the orbits of the ends of I")
-        proof = prove_staying(of, prover)
+    if request.asks(*_INVARIANT):
+        request.tell("a horseshoe around I, and the orbits of the ends of I")
+        proof = prove_staying(request.of, prover)
         evidence.proofs |= dict.fromkeys(_INVARIANT, proof) | {"H10": proof[:1]}
-    tell("roots for the linear set")
-    root = cache(prover.root)
+    request.tell("roots for the linear set")
+    root, of = cache(prover.root), request.of
     for claim, pairs in (("H12", [of.reciprocals]), ("H14", [of.reciprocals, of.moran_ratios])):
-        if claim in claims:
+        if request.asks(claim):
             try:
                 sets = [LinearSet(ratios, of.interval) for ratios in dict.fromkeys(pairs)]
                 evidence.proofs[claim] = [root(each.ratios) for each in sets]

@@ -12,10 +12,9 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import islice, product
 
-from proofs.motion.system import System
-from proofs.motion.witness import HORIZON
 from proofs.search.evidence import Evidence
 from proofs.search.repair import places, short_decimal
+from proofs.search.request import Request, proving
 from proofs.search.s33_rectangles import (
     Images,
     Sets,
@@ -25,41 +24,34 @@ from proofs.search.s33_rectangles import (
     widened,
 )
 from proofs.search.s33_steps import ReboundProver
-from proofs.search.steps import Prover
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.paper import GROUPS
 from proofs.trusted.paper.s33_restitution.horseshoes import shoes
-from proofs.trusted.parameters import Parameters, Place
+from proofs.trusted.parameters import Place
 
 _ATTEMPTS = 12  # with widened rectangles
 
 
-def prove(
-    of: Parameters,
-    claims: Sequence[str] = GROUPS["nonplastic"],
-    *,
-    digits: int = 30,
-    tell: Callable[[str], None] = lambda stage: None,
-) -> Evidence:
+@proving
+def prove(request: Request) -> Evidence:
     """Decide the claims asked for: the printed rectangles, the nearest that do, and boxes.
 
     What cannot be proved leaves no step; the claim is then undecided for want of it.
     """
-    if of.box is None or of.epsilon is None or of.velocities is None:
+    if request.of.box is None or request.of.epsilon is None or request.of.velocities is None:
         return Evidence()
-    prover = ReboundProver(of, Prover(System(of.eta, of.nu), digits, HORIZON))
-    at = Place.restituting(of.eta, of.nu, of.epsilon)
-    exact = [claim for claim in claims if claim not in ("N4", "N5")]
-    named, notes = _at_exact_numbers(prover, at, exact, tell) if exact else ({}, {})
-    if "N4" in claims:
+    prover = ReboundProver(request.of, request.prover())
+    at = Place.restituting(request.of.eta, request.of.nu, request.of.epsilon)
+    exact = [claim for claim in request.claims if claim not in ("N4", "N5")]
+    named, notes = _at_exact_numbers(prover, at, exact, request.tell) if exact else ({}, {})
+    if request.asks("N4"):
         from proofs.search.s33_boxes import on_box  # what one claim alone needs
 
-        tell("the box of parameters")
-        named["N4"], notes["N4"] = on_box(prover, of.box)
-    if "N5" in claims:
+        request.tell("the box of parameters")
+        named["N4"], notes["N4"] = on_box(prover, request.of.box)
+    if request.asks("N5"):
         from proofs.search.s33_family import along_epsilon
 
-        tell("larger epsilon")
+        request.tell("larger epsilon")
         named["N5"], notes["N5"] = along_epsilon(prover)
     proofs = {
         claim: [(name, prover.known[name]) for name in dict.fromkeys(names)]

@@ -6,7 +6,7 @@ bound on the topological entropy, from all branches of f near the phase pi/2.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -16,9 +16,9 @@ from intervals import Undecided
 from proofs.methods.subshifts import Subshift, largest_subshift, tower
 from proofs.motion.system import System
 from proofs.motion.windows import Candidate, Candidates
-from proofs.motion.witness import HORIZON
 from proofs.search.budget import FASTEST
 from proofs.search.evidence import FAILED, Evidence
+from proofs.search.request import Request, proving
 from proofs.search.s34_staying import prove_staying
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
@@ -29,7 +29,6 @@ from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Range, within
 from proofs.trusted.paper.branches import Branch
 from proofs.trusted.paper.s34_circle.other_sets import PRINTED
-from proofs.trusted.parameters import Parameters
 from proofs.trusted.windows import BITS
 
 _DOMAIN = (1.0, 2.1)  # the phases around pi/2 whose orbits come back to them
@@ -44,20 +43,15 @@ _SOON = Fraction(1, 10**7)  # how long after an impact the gap is looked at
 _NEAREST, _TRIES = Fraction(1, 2**32), 12  # of brackets of impacts: the narrowest, how many
 
 
-def prove(
-    of: Parameters,
-    claims: Sequence[str],
-    *,
-    digits: int = 30,
-    tell: Callable[[str], None] = lambda stage: None,
-) -> Evidence:
+@proving
+def prove(request: Request) -> Evidence:
     """Prove what the claims asked for rest on."""
-    prover = Prover(System(of.eta, of.nu), digits, HORIZON)
+    prover = request.prover()
     evidence = Evidence(prover.steps)
-    if asked := {"G5", "G11", "G20"}.intersection(claims):
-        tell("which orbits stay in [1.32, 1.48], and around it")
-        evidence.proofs |= dict.fromkeys(asked, prove_staying(prover, PRINTED, of.interval))
-    if "G20" in claims:
+    if asked := {"G5", "G11", "G20"}.intersection(request.claims):
+        request.tell("which orbits stay in [1.32, 1.48], and around it")
+        evidence.proofs |= dict.fromkeys(asked, prove_staying(prover, PRINTED, request.of.interval))
+    if request.asks("G20"):
         ends = [prover.point(phase) for phase in PRINTED]
         kept = [  # the other orbits are beside the point
             (name, each)
@@ -65,8 +59,8 @@ def prove(
             if isinstance(each, StayingSet) and (not each.orbit or each.region == (PRINTED,))
         ]
         evidence.proofs["G20"] = [*kept, *ends]
-    if "G9" in claims:
-        tell("branches of f, and their covering graph")
+    if request.asks("G9"):
+        request.tell("branches of f, and their covering graph")
         evidence.proofs["G9"] = [*prove_entropy(prover)]
     return evidence
 
@@ -83,11 +77,11 @@ def prove_entropy(
     """
     if not -1 < prover.system.nu < 0 or prover.system.eta > FASTEST:
         return []
-    found = Branches(prover.system, Candidates(prover.system, most_turns))
-    for low, high in found.candidates.runs(*_DOMAIN, _GRID):
+    branches = Branches(prover.system, Candidates(prover.system, most_turns))
+    for low, high in branches.candidates.runs(*_DOMAIN, _GRID):
         if high - low > _NARROWEST:
-            found.prove(prover, low, high)
-    return prove_covering(prover, found, depth)
+            branches.prove(prover, low, high)
+    return prove_covering(prover, branches, depth)
 
 
 def prove_covering(
@@ -169,10 +163,10 @@ class Branches:
 
     def impact(self, phase: float) -> Candidate:
         """Return about where the first impact is; Undecided if there is none."""
-        found = self.candidates.impact(phase)
-        if found is None:
+        candidate = self.candidates.impact(phase)
+        if candidate is None:
             raise Undecided("no impact in floating point")
-        return found
+        return candidate
 
     def on(self, phase: Fraction) -> int:
         """Return the number of the branch that a phase lies on."""

@@ -8,7 +8,7 @@ until they stick, or never impact again.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
@@ -18,10 +18,9 @@ from typing import TypeVar
 from intervals import Undecided
 from proofs.methods.derivation import concluded
 from proofs.motion.landing import separation
-from proofs.motion.system import System
-from proofs.motion.witness import HORIZON
 from proofs.search.derivations import Steps
 from proofs.search.evidence import FAILED, Evidence
+from proofs.search.request import Request, proving
 from proofs.search.s34_absorbing import Partition
 from proofs.search.s34_staying import prove_shift
 from proofs.search.steps import Prover
@@ -31,7 +30,6 @@ from proofs.trusted.numbers import hull
 from proofs.trusted.paper.s2_foundations import unending
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation
 from proofs.trusted.paper.s34_circle.other_sets import PRINTED
-from proofs.trusted.parameters import Parameters
 
 _STICKS = {"G1", "G2", "G3", "G4", "G6", "G10", "G13"}  # what rests on where the mass sticks
 _NEVER = {"M6", "G4", "G6", "G10", "G13", "G14"}  # what rests on phases that never impact again
@@ -40,28 +38,24 @@ _SYMBOLS = 3  # of the full shift around all invariant sets of section 3
 _Found = TypeVar("_Found", bound=Conclusion)
 
 
-def prove(
-    of: Parameters,
-    claims: Sequence[str],
-    *,
-    digits: int = 30,
-    tell: Callable[[str], None] = lambda stage: None,
-) -> Evidence:
+@proving
+def prove(request: Request) -> Evidence:
     """Prove what the claims asked for rest on; what fails is left out."""
-    prover = Prover(System(of.eta, of.nu), digits, HORIZON)
-    found = _Run(prover, Evidence(prover.steps, {claim: [] for claim in claims}), tell)
-    if not -1 < of.nu < 0 < of.eta < 1:
-        return found.evidence
-    arc = found.attempt("where the mass sticks", _STICKS, partial(prove_arc, prover))
-    never = found.attempt("phases without a next impact", _NEVER, partial(prove_longest, prover))
-    if "M6" in claims:
-        lemmas = Steps(digits, steps=prover.steps)
-        found.evidence.proofs["M6"] += filter(None, map(lemmas.prove, unending.needs))
+    prover = request.prover()
+    evidence = Evidence(prover.steps, {claim: [] for claim in request.claims})
+    run = _Run(prover, evidence, request.tell)
+    if not -1 < request.of.nu < 0 < request.of.eta < 1:
+        return evidence
+    arc = run.attempt("where the mass sticks", _STICKS, partial(prove_arc, prover))
+    never = run.attempt("phases without a next impact", _NEVER, partial(prove_longest, prover))
+    if request.asks("M6"):
+        lemmas = Steps(request.digits, steps=prover.steps)
+        evidence.proofs["M6"] += filter(None, map(lemmas.prove, unending.needs))
     if arc is not None:
-        found.attempt("where all others lead", _FOLLOWED, Partition(prover, arc, never).prove)
-    around = hull([of.interval, PRINTED])
-    found.attempt("a full shift", {"G6"}, partial(prove_shift, prover, around, _SYMBOLS))
-    return found.evidence
+        run.attempt("where all others lead", _FOLLOWED, Partition(prover, arc, never).prove)
+    around = hull([request.of.interval, PRINTED])
+    run.attempt("a full shift", {"G6"}, partial(prove_shift, prover, around, _SYMBOLS))
+    return evidence
 
 
 @dataclass
@@ -81,10 +75,10 @@ class _Run:
             return None
         self.tell(stage)
         with suppress(*FAILED), self.prover.undone():
-            found = make()
+            step = make()
             for proof in proofs:
-                proof.append(found)
-            return found
+                proof.append(step)
+            return step
         return None
 
 

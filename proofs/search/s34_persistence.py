@@ -7,7 +7,7 @@ phase.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from fractions import Fraction
 from itertools import islice
@@ -16,10 +16,9 @@ from intervals import Undecided
 from proofs.motion.chatter import BITS, Pushing, around
 from proofs.motion.covering import halves
 from proofs.motion.simulate import TURNS
-from proofs.motion.system import System
 from proofs.motion.transients import INITIAL_STATES, Summary, transients
-from proofs.motion.witness import HORIZON
 from proofs.search.evidence import FAILED, Evidence, Proof
+from proofs.search.request import Request, proving
 from proofs.search.s33_cycles import stable_cycles
 from proofs.search.s33_steps import ReboundProver
 from proofs.search.s34_attractors import branch
@@ -29,7 +28,6 @@ from proofs.search.steps import Prover
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.paper.s34_circle.persistence import Box, Cell, SuperstableMotion, landed
-from proofs.trusted.parameters import Parameters
 
 _SPREAD = Fraction(1, 100_000)  # of phases and speeds around the impact
 _STEPS = Fraction(1, 10), Fraction(1, 100), Fraction(1, 1000)  # of epsilon, tried in turn
@@ -38,38 +36,35 @@ _OTHER = Fraction(29, 100)  # an epsilon at which simulated motions find another
 _TRIES = 20  # simulated motions
 
 
-def prove(
-    of: Parameters,
-    claims: Sequence[str],
-    *,
-    digits: int = 30,
-    tell: Callable[[str], None] = lambda stage: None,
-) -> Evidence:
+@proving
+def prove(request: Request) -> Evidence:
     """Prove what the claims asked for rest on; G8 is an observation: it is simulated."""
-    prover, found = Prover(System(of.eta, of.nu), digits, HORIZON), Evidence()
-    if {"G7", "G12", "G15", "G16"}.intersection(claims):
+    prover, evidence = request.prover(), Evidence()
+    if request.asks("G7", "G12", "G15", "G16"):
         with suppress(*FAILED):  # what is not proved the claims do not say
-            tell("the flight from the separation phase, and bounces for ever larger epsilon")
+            request.tell(
+                "the flight from the separation phase, and bounces for ever larger epsilon"
+            )
             motion = superstable_motion(prover)
             proof: Proof = [motion]
-            found.proofs = dict.fromkeys({"G7", "G12"}.intersection(claims), proof)
-            if "G15" in claims:
-                tell("where bounces do not come to an end any more")
-                found.proofs["G15"] = [*proof, *border(prover, motion)]
-            if {"G7", "G12", "G16"}.intersection(claims):
-                tell("another stable orbit")
-                rebounds = ReboundProver(of, prover)
+            evidence.proofs = dict.fromkeys({"G7", "G12"}.intersection(request.claims), proof)
+            if request.asks("G15"):
+                request.tell("where bounces do not come to an end any more")
+                evidence.proofs["G15"] = [*proof, *border(prover, motion)]
+            if request.asks("G7", "G12", "G16"):
+                request.tell("another stable orbit")
+                rebounds = ReboundProver(request.of, prover)
                 others = list(islice(stable_cycles(rebounds, _OTHER, _TRIES, 2), 1))
-                if "G16" in claims:
-                    tell("the same orbit for other epsilon")
+                if request.asks("G16"):
+                    request.tell("the same orbit for other epsilon")
                     cycles = [each for _, other in others for each in branch(rebounds, other)]
-                    found.proofs["G16"] = [*proof, *cycles]
+                    evidence.proofs["G16"] = [*proof, *cycles]
                 proof += others
-    if "G8" in claims:
-        tell("simulated motions")
-        found.notes["G8"] = observed(transients(prover.system))
-    found.steps = prover.steps
-    return found
+    if request.asks("G8"):
+        request.tell("simulated motions")
+        evidence.notes["G8"] = observed(transients(prover.system))
+    evidence.steps = prover.steps
+    return evidence
 
 
 def observed(rows: Sequence[Summary]) -> str:

@@ -17,10 +17,9 @@ from types import MappingProxyType
 from intervals import Undecided
 from proofs.motion.brackets import middle
 from proofs.motion.landing import NEWTON, short, zero
-from proofs.motion.system import System
 from proofs.motion.windows import Candidates
-from proofs.motion.witness import HORIZON
 from proofs.search.evidence import FAILED, Evidence, Proof, search_each
+from proofs.search.request import Request, proving
 from proofs.search.s34_chaos import prove_covering
 from proofs.search.s34_laps import FINE, Images, Laps, flight, record, rise
 from proofs.search.steps import Prover
@@ -39,7 +38,6 @@ from proofs.trusted.paper.s34_circle.grazing import Grazing
 from proofs.trusted.paper.s34_circle.laps import EntropyRange
 from proofs.trusted.paper.s34_circle.pieces import Piece
 from proofs.trusted.paper.s34_circle.roots import ENDS
-from proofs.trusted.parameters import Parameters
 
 _DEPTHS = 3, 4  # of the towers of states, from below and from above
 _SCALE, _RATE = Fraction(1, 7), Fraction(5, 4)  # of lengths above pi/2, and how they grow
@@ -52,17 +50,12 @@ _ROOT_TURNS, _ROOT_GRID, _BESIDE = 2000, 20, 0.005
 _SOONER = Fraction(1, 10**6)  # than a narrow graze, impacts beside it
 
 
-def prove(
-    of: Parameters,
-    claims: Sequence[str],
-    *,
-    digits: int = 30,
-    tell: Callable[[str], None] = lambda stage: None,
-) -> Evidence:
+@proving
+def prove(request: Request) -> Evidence:
     """Prove what the claims asked for rest on, as far as it goes."""
-    prover = Prover(System(of.eta, of.nu), digits, HORIZON)
-    evidence = Evidence(prover.steps, {claim: [] for claim in claims})
-    return search_each(evidence, claims, _SEARCHES, tell, _Whole(prover))
+    prover = request.prover()
+    evidence = Evidence(prover.steps, {claim: [] for claim in request.claims})
+    return search_each(evidence, request.claims, _SEARCHES, request.tell, _Whole(prover))
 
 
 @dataclass
@@ -164,8 +157,8 @@ class _Cutting:
 
 def prove_cycles(laps: Laps, grown: tuple[str, Expansion]) -> tuple[str, Cycles]:
     """Prove all periodic orbits up to a period (rule cycles)."""
-    known, points = Images(laps.found), Images(laps.found)
-    outer = Outer(grown[1], known)
+    images, points = Images(laps.found), Images(laps.found)
+    outer = Outer(grown[1], images)
     alive = [
         word
         for length in range(1, _LONGEST + 1)
@@ -184,7 +177,7 @@ def prove_cycles(laps: Laps, grown: tuple[str, Expansion]) -> tuple[str, Cycles]
         "orbits": [[points.bracket(x) for x in orbit] for orbit in orbits],
         "radius": str(_RADIUS),
         "longest": str(_LONGEST),
-        "images": known.witness(),
+        "images": images.witness(),
     }
     return laps.prover.derive("cycles", witness)
 
@@ -208,11 +201,11 @@ def _cycle(laps: Laps, branches: Sequence[Branch]) -> list[Fraction]:
 # -- square roots ----------------------------------------------------------------------------------
 
 
-def prove_roots(whole: _Whole) -> Proof:
+def prove_roots(shared: _Whole) -> Proof:
     """Prove grazes narrowly, and the pieces between them."""
-    roots = prove_grazes(whole.prover)
+    roots = prove_grazes(shared.prover)
     with suppress(*FAILED):
-        roots.append((whole.laps.name, whole.laps.pieces))
+        roots.append((shared.laps.name, shared.laps.pieces))
     return roots
 
 
@@ -229,11 +222,11 @@ def _prove_root(prover: Prover, candidates: Candidates, end: float) -> tuple[str
     runs = candidates.runs(end - _BESIDE, end + _BESIDE, _ROOT_GRID)
     ends = [(low, high) for (_, low), (high, _) in pairwise(runs)]
     seen = {low: (candidates.impact(low), candidates.impact(high)) for low, high in ends}
-    jumps = [(one, two, low) for low, (one, two) in seen.items() if one and two]
+    jumps = [(left, right, low) for low, (left, right) in seen.items() if left and right]
     if not jumps:
         raise Undecided("no graze is seen")
-    one, two, low = min(jumps, key=lambda jump: min(jump[0].turn, jump[1].turn))
-    first, later = (one, two) if one.turn < two.turn else (two, one)
+    left, right, low = min(jumps, key=lambda jump: min(jump[0].turn, jump[1].turn))
+    first, later = (left, right) if left.turn < right.turn else (right, left)
     phase, time = _graze(prover, Fraction(low), Fraction(first.time))
     arrival = zero(flight(prover, phase), Fraction(later.time), 0)
     unit, centre = Fraction(1, 10**_ROOT_PLACES), round(phase, _ROOT_PLACES)
@@ -258,10 +251,10 @@ def _graze(prover: Prover, phase: Fraction, time: Fraction) -> tuple[Fraction, F
     return phase, time
 
 
-def prove_all_orbits(whole: _Whole) -> Proof:
+def prove_all_orbits(shared: _Whole) -> Proof:
     """Prove the expansion, and all periodic orbits up to a period."""
-    grown = prove_expansion(whole.laps)
-    return [whole.range, grown, prove_cycles(whole.laps, grown)]
+    grown = prove_expansion(shared.laps)
+    return [shared.range, grown, prove_cycles(shared.laps, grown)]
 
 
 _SEARCHES: Mapping[str, tuple[str, Callable[[_Whole], Proof]]] = MappingProxyType(

@@ -6,7 +6,7 @@ orbits in figures 7a and 7b are enclosed with the package `intervals`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
@@ -16,17 +16,16 @@ from intervals import Undecided
 from proofs.motion.single_orbits import SingleImpact, solutions
 from proofs.motion.system import System
 from proofs.motion.window_ends import bracket, earlier, eta_end, graze_end, nu_end
-from proofs.motion.witness import HORIZON
 from proofs.search.derivations import Steps
 from proofs.search.evidence import FAILED, Evidence
+from proofs.search.request import Request, proving
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.flights import Motion
 from proofs.trusted.numbers import TURN, Range
-from proofs.trusted.paper import GROUPS
 from proofs.trusted.paper.s4_single import single as claims
 from proofs.trusted.paper.s4_single.orbits import FLIP, SADDLE, STICK, records
-from proofs.trusted.parameters import PAPER, Parameters
+from proofs.trusted.parameters import PAPER
 
 _MOST = 40  # table periods in the search for examples
 _ORBITS = 12  # and for orbits to show
@@ -46,22 +45,22 @@ class Single:
         return self.prover.derive(rule, witness)[0]
 
     def solution(
-        self, system: System, of: SingleImpact, early: bool = False, first: bool = False
+        self, system: System, orbit: SingleImpact, early: bool = False, first: bool = False
     ) -> str:
         """Record a solution of (16), with an earlier time at which the gap is < 0 if asked for.
 
         first: or with its first impact, n periods later, at the parameters of the certificate.
         """
-        phase = bracket(system, of.n, of.phase, self.prover.bits)
+        phase = bracket(system, orbit.n, orbit.phase, self.prover.bits)
         motion = Motion(system.place, phase, self.prover.bits + 60)
         return self._derive(
             "single-solution",
             eta=str(system.eta),
             nu=str(system.nu),
-            n=str(of.n),
+            n=str(orbit.n),
             phase=texts(phase),
-            early=str(_inside(motion, of.n)) if early else None,
-            flight=self.prover.impact(phase)[0] if first else None,
+            early=str(_inside(motion, orbit.n)) if early else None,
+            flight=self.prover.impacts(phase)[0][0] if first else None,
         )
 
     def eta_windows(self, nu: Fraction, low: Fraction) -> str:
@@ -83,10 +82,10 @@ class Single:
         """Record all windows in eta >= low at which stable orbits exist, for nu in [-3/10, 0)."""
         bits, ends, n = self.prover.bits, list[tuple[Range, Range]](), 1
         while n * low < 1:
-            whole = Fraction(1, 2 * n), Fraction(1, n)
-            saddle = eta_end(nu, n, SADDLE, bits, whole)
+            between = Fraction(1, 2 * n), Fraction(1, n)
+            saddle = eta_end(nu, n, SADDLE, bits, between)
             sticks = 1 - nu <= n * n * -nu
-            last = eta_end(nu, n, STICK, bits, whole) if sticks else (whole[1], whole[1])
+            last = eta_end(nu, n, STICK, bits, between) if sticks else (between[1], between[1])
             if last[0] <= low:
                 break
             ends.append((saddle, last))
@@ -147,24 +146,24 @@ def examples(system: System, most: int) -> Iterator[SingleImpact]:
             yield from solutions(system, n, 80)
 
 
-def _contracts(one: SingleImpact) -> bool:
-    return one.multiplier is not None and -1 < one.multiplier[0] <= one.multiplier[1] < 1
+def _contracts(orbit: SingleImpact) -> bool:
+    return orbit.multiplier is not None and -1 < orbit.multiplier[0] <= orbit.multiplier[1] < 1
 
 
 def _first(system: System, most: int, reason: str) -> SingleImpact:
     """Return the first solution with |slope| < 1 that is not an orbit for this reason."""
-    for one in examples(system, most):
-        if one.reason == reason and _contracts(one):
-            return one
+    for orbit in examples(system, most):
+        if orbit.reason == reason and _contracts(orbit):
+            return orbit
     raise Undecided(f"no solution of (16) with |slope| < 1 is found: {reason}")
 
 
 def _stability(steps: Single) -> list[str]:
     paper, system = System(PAPER.eta, PAPER.nu), steps.prover.system
     names = [steps.solution(paper, _first(paper, _MOST, "an earlier impact"), early=True)]
-    for one in examples(system, _ORBITS):
+    for orbit in examples(system, _ORBITS):
         with suppress(*FAILED), steps.prover.undone():
-            names += [steps.solution(system, one, first=True)] if one.admissible else []
+            names += [steps.solution(system, orbit, first=True)] if orbit.admissible else []
     return names
 
 
@@ -191,21 +190,16 @@ def _figure_b(steps: Single) -> list[str]:
 _FIND = {"P4": _stability, "P5": _figure_a, "P6": _figure_b}
 
 
-def prove(
-    of: Parameters,
-    asked: Sequence[str] = GROUPS["single"],
-    *,
-    digits: int = 30,
-    tell: Callable[[str], None] = lambda stage: None,
-) -> Evidence:
+@proving
+def prove(request: Request) -> Evidence:
     """Prove what the claims asked for rest on: formulas, and for P4 to P6 orbits."""
-    formulas = Steps(digits)
-    prover = Prover(System(of.eta, of.nu), digits, HORIZON, formulas.steps)
+    formulas = Steps(request.digits)
+    prover = request.prover(formulas.steps)
     single, evidence = Single(prover), Evidence(formulas.steps)
     for row in claims.ROWS:
-        if row.id not in asked:
+        if not request.asks(row.id):
             continue
-        tell(f"formulas and orbits of {row.id}")
+        request.tell(f"formulas and orbits of {row.id}")
         names = _FIND[row.id](single) if row.id in _FIND else []
         proved = [formulas.prove(need) for need in row.needs]
         rest = [each for each in proved if each is not None]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from proofs.search.derivations import prove_rows
+from proofs.search.request import proving
 from proofs.trusted.paper.s6_resonance.resonance import ROWS
 
-prove = partial(prove_rows, ROWS)
+prove = proving(partial(prove_rows, rows=ROWS))

@@ -19,8 +19,6 @@ Rule = Callable[[Context, Reader], Conclusion]
 RULES: Mapping[str, str] = MappingProxyType(
     {
         "first-impact": "flights.first_impact",
-        "point": "slopes.point",
-        "slope-range": "slopes.slope_range",
         "avoids": "slopes.avoids",
         "formula-equal": "kernel.values.equal",
         "formula-series": "kernel.values.series",

@@ -2,9 +2,11 @@
 
 import numpy as np
 
+from tests.effort import EFFORT
 from tests.oracles.flights import Simulation, system_of_record
 
-LONG, SHORT, SLIP = 80, 1 / 200, 1e-10  # times; an error of the gaps
+LONG, SHORT = (20 if EFFORT.quick else 80), 1 / 200  # times
+SLIP = 1e-10  # of the gaps
 
 
 def _simulated(view):

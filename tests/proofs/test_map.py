@@ -316,6 +316,7 @@ def test_a_graze_is_between_an_impact_and_none():
         BALL.graze(phi="0.3", v="1.5")
 
 
+@pytest.mark.slow
 def test_two_walls_at_once_are_no_impact_with_one():
     with pytest.raises(Undecided, match="two walls may be hit at once"):
         far_wall((("wall", "other"),)).impact(a="0.3", v="-1")
@@ -430,6 +431,23 @@ def test_a_file_that_is_wrong_is_told_in_a_line(tmp_path, old, new, reason):
     assert "\n" not in str(refused.value) and str(file) in str(refused.value)
 
 
+@pytest.mark.parametrize("name", ["bouncing-ball", "wall", "two-walls"])
+def test_derivatives_of_candidates_are_differences(name):
+    system = System.example(name)
+    sampled = system._sampled.iterate(2 - len(system.walls) // 2)
+    low, high = np.array([[float(end) for end in side] for side in system.region()]).T[:, :, None]
+    x = low + (high - low) * np.random.default_rng(1).random((len(low), 400))
+    image, slopes = sampled.expanded(x)
+    assert np.array_equal(image.T, sampled(x), equal_nan=True)
+    step = 1e-6
+    for k in range(len(x)):
+        moved = [x + side * step * (np.arange(len(x)) == k)[:, None] for side in (1, -1)]
+        change = (sampled(moved[0]) - sampled(moved[1])).T / (2 * step)
+        tame = np.isfinite(change).all(axis=1) & (np.abs(change).max(axis=1) < 100)
+        assert tame.sum() > 20
+        assert np.abs(slopes[tame, :, k] - change[tame]).max() < 1e-4
+
+
 # -- the command -----------------------------------------------------------------------------------
 
 
@@ -467,6 +485,7 @@ def test_the_time_is_over(capsys):
     assert said.count("stopped after 0.7 seconds, as asked") == 2 and "points at random" not in said
 
 
+@pytest.mark.slow
 def test_what_comes_next_is_asked(capsys):
     assert main(["--example", "wall", "--ask", "impact:a=0.3,v=-1", "impact:a=0.3,v=1"]) == 0
     said = capsys.readouterr().out
@@ -488,6 +507,25 @@ def test_a_question_that_is_none(asked, told, capsys):
     assert told in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["--seconds", "0"], "some seconds are expected, not 0"),
+        (["--walls", "floor"], "walls are those of a system"),
+        (["--set", "a=2"], "the parameter a is in none of the formulas"),
+    ],
+)
+def test_what_is_no_use_is_told(arguments, told, capsys):
+    with pytest.raises(SystemExit, match="2"):
+        main(["--map", "x/2", *arguments])
+    assert told in capsys.readouterr().err
+
+
+def test_branches_of_flows_are_not_followed():
+    with pytest.raises(Undecided, match="with a closed form"):
+        System.example("van-der-pol").branches(m=("1", "2"))
+
+
 def test_all_orbits_and_images_are_asked_of_the_command(capsys):
     asked = ["--ask", "all:3", "orbits", "image:x=0.3", "--box", "x=-1:2"]
     assert main(["--map", "R*x*(1 - x)", "--set", "R=3.9", *asked]) == 0
@@ -502,6 +540,8 @@ def test_all_orbits_and_images_are_asked_of_the_command(capsys):
         (["--map", "sqrt(x - 10)"], "30 end before: where the map is not defined"),
         (["--map", "x^2 + 1"], "30 end before: beyond 1e+06"),
         (["--map", "x + 0.3 - sin(x)/2"], "x may be an angle: give it the period 2*pi"),
+        (["--map", "x/0"], "30 end before: where the map is not defined"),
+        (["--map", "x^2 - 1"], "18 come to an orbit of period 2 through (-1)\n"),
         (["--map", "x/2"], "of 30 points at random, x in [-3, 3], 30 are followed"),
         (["--example", "wall", "--box", "v=-1:2"], "at once, as at rest or after chatter: -x is"),
         (["--example", "two-walls"], "at another wall than is next in their order"),

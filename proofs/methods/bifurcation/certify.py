@@ -22,7 +22,6 @@ from proofs.trusted.numbers import Range
 
 _SPARE_DIGITS = 12
 _NEWTON = 60  # steps from a guess
-_SIGN_BITS = 200
 
 
 def prove_jacobian(file: Lemmas, of: Map) -> None:

@@ -4,6 +4,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 import pytest
+from mpmath import findroot, mp, mpf
 
 from intervals import Undecided
 from proofs.methods.dimension import Formulas, dimension
@@ -20,6 +21,7 @@ E2 = Fraction(
 )
 E2_HULL = (Fraction("0.36"), Fraction("0.74"))
 UNIT = (Fraction(0), Fraction(1))
+AROUND = (Fraction(-1, 10), Fraction(11, 10))  # mapped into its inside, where [0, 1] may not be
 
 
 def e2(x):
@@ -29,6 +31,14 @@ def e2(x):
 def lines(*pairs):
     """The maps x -> r x + t."""
     return lambda x: [r * x + t for r, t in pairs]
+
+
+def moran(ratios, digits=40):
+    with mp.workdps(digits):
+        root = findroot(
+            lambda s: sum(mpf(r.numerator) ** s / mpf(r.denominator) ** s for r in ratios) - 1, 0.5
+        )
+        return Fraction(mp.nstr(root, digits))
 
 
 @pytest.mark.parametrize("digits", [3, 20, pytest.param(99, marks=pytest.mark.slow)])
@@ -49,6 +59,23 @@ def test_all_published_digits_of_continued_fractions():
     assert high - low < Fraction(1, 10**110)
     published = E2 * 10**100
     assert low * 10**100 - 1 < published < high * 10**100 + 1
+
+
+@pytest.mark.parametrize(
+    "maps",
+    [
+        [(Fraction(1, 3), 0), (Fraction(1, 3), Fraction(2, 3))],
+        [(Fraction("0.1905"), 0), (Fraction("0.2381"), Fraction("0.7"))],
+        [
+            (Fraction(-1, 5), Fraction(1, 4)),
+            (Fraction(1, 3), Fraction(1, 2)),
+            (Fraction(1, 9), Fraction(8, 9)),
+        ],
+    ],
+)
+def test_linear_sets_by_moran(maps):
+    low, high = dimension(lines(*maps), AROUND, 12).bounds
+    assert low < moran([abs(r) for r, _ in maps]) < high
 
 
 def of_e2(digits=8, s=None):
@@ -88,6 +115,23 @@ def test_a_wrong_exponent_is_seen():
         assert max(abs(end - 1) for end in wrong.bounds) > abs(shift) / 2
         low, high = wrong.dimension(by.bits)
         assert low < E2 < high and high - low > abs(shift)
+
+
+CHANGES = {
+    "the remainder counts": ({}, {"nodes": 5}),
+    "few bits": ({}, {"bits": 64}),
+    "another function": ({"coefficients": (Fraction(1), Fraction(-1, 4))}, {}),
+}
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_what_makes_the_bound_wide(name):
+    branches, trial, by = of_e2(16)
+    of_trial, of_by = CHANGES[name]
+    rough = growth(branches, replace(trial, **of_trial), replace(by, **of_by))
+    low, high = rough.bounds
+    assert low < 1 < high or name == "another function"
+    assert high - low > Fraction(1, 10**16)
 
 
 WRONG = {
@@ -139,3 +183,9 @@ def test_without_contraction_nothing_is_said():
     """On [0, 1] the derivative of 1 / (1 + x) is -1 at 0."""
     with pytest.raises(Undecided):
         dimension(e2, UNIT, 2)
+
+
+@pytest.mark.slow
+def test_a_pole_is_no_dimension():
+    with pytest.raises(Undecided):
+        dimension(lambda x: [1 / (2 * x - 1), 1 / (3 + x)], UNIT, 4)

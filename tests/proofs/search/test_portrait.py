@@ -46,6 +46,18 @@ def test_fates_count_all_orbits():
     assert (rests.name, rests.share) == ("it rests on the table for ever", 1)
 
 
+@pytest.mark.parametrize(
+    ("eta", "nu", "name"),
+    [  # by P4.3: period 1 in two turns; by figure 5
+        ("0.2121", "1", "a stable orbit of period 1 near 0.134519"),
+        ("0.2121", "-0.2", "it sticks or rests on the table in each period, and leaves it again"),
+    ],
+)
+def test_what_sticks_is_followed_from_the_separation(eta, nu, name):
+    first = fates(System(F(eta), F(nu)), 24, 400, 200.0)[0]
+    assert first.name == name and first.share > 0.9
+
+
 @pytest.mark.slow
 def test_soft_touches_are_no_stable_orbits():
     """Resonance: by R9 all motions tend to grazing ones; eta = 20 also repeats after one turn."""

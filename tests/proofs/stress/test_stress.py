@@ -67,6 +67,15 @@ def test_the_truth_agrees_with_a_scan_of_equation_10(by, given):
     assert all(high - low <= abs(low) / Fraction(10) ** 90 for low, high in found.values())
 
 
+def test_the_truth_after_sticking(by):
+    leave = reference.separation_phase(mpf("0.2121"), mpf("-0.2"))
+    flight, _ = reference.first_impact(mpf("0.2121"), mpf("-0.2"), leave)
+    found = first_impact(by, Launched(ETA, NU, Fraction(5)), FAR).known
+    assert close(found["flight"], flight, mpf(10) ** -30)
+    assert mp.fabs(mp.sin((number(found["dwell"][0]) - (leave - 5)) / 2)) < mpf(10) ** -45
+    assert found["slope"] == (0, 0)
+
+
 def test_the_truth_with_restitution_solves_14_and_15(by):
     of = Launched(ETA, NU, Fraction("1.11"), Fraction("0.1"), Fraction("-0.5"))
     found = first_impact(by, of, FAR).known
@@ -81,6 +90,13 @@ def test_the_truth_with_restitution_solves_14_and_15(by):
         for quantity in ("phase", "velocity"):
             quotient = (other[quantity][0] - found[quantity][0]) / step
             assert abs(found[f"{quantity} by {name}"][0] - quotient) < Fraction(1, 10**7)
+
+
+def test_the_truth_without_impact(by):
+    never = first_impact(by, Launched(ETA, Fraction("0.02"), Fraction(1)), FAR)
+    assert not never.known and never.reason == "the mass stays on the table"
+    later = first_impact(by, Launched(ETA, NU, Fraction("1.11")), Fraction(10))
+    assert not later.known and later.reason == "no impact up to the horizon"
 
 
 @pytest.mark.slow

@@ -21,7 +21,7 @@ from tests.proofs.trusted.mutations import EXCUSED, FORM, HARMLESS, mutations, o
 from tests.proofs.trusted.renewing import fresh
 
 SHARES = {"ball": 0.04, "rattle": 0.04, "outcomes": 0.15}  # which the oracles simulate
-SLOW = SHARES.keys() | {"horseshoe", "henon_horseshoe", "gap_identities"}
+SLOW = SHARES.keys() | {"lines", "horseshoe", "henon_horseshoe", "gap_identities"}
 FILES = ["horseshoe", *EXAMPLES]
 
 

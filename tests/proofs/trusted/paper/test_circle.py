@@ -20,10 +20,10 @@ from proofs.search import s34_circle as circle
 from proofs.search.steps import Prover
 from proofs.shell.groups import decide, wanted
 from proofs.trusted.certificate import Malformed
-from proofs.trusted.flights import PlasticMap
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Phase, Phases
+from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s34_circle.absorption import UNIT, Absorption, Sink
 from proofs.trusted.paper.s34_circle.cells import Cell, Inverse, _links, absorbed, in_order
@@ -512,7 +512,12 @@ def test_what_is_open_rests_on_a_sink_of_the_same_oscillator(arc):
 
 
 @pytest.mark.parametrize(
-    "ends", [(("1.5", "1.6"), ("1.7", "1.8")), (("1.57", "1.57"), ("1.6", "1.7"))]
+    "ends",
+    [
+        (("1.5", "1.6"), ("1.7", "1.8")),
+        (("1.57", "1.57"), ("1.6", "1.7")),
+        (("1.5", "1.57"), ("1.6", "1.6")),
+    ],
 )
 def test_the_ends_of_a_sink_are_brackets_of_its_interval(ends):
     never = NeverImpacts(PAPER.place, Phases(Fraction("1.57"), Fraction("1.6")))

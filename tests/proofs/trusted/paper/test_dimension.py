@@ -89,6 +89,7 @@ def test_the_paper_is_refuted():
         assert low < Fraction(value) + Fraction(1, 10**15) and Fraction(value) < high
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("of", [PAPER, replace(PAPER, left=LEFT, right=RIGHT, interval=HULL)])
 def test_a_set_around_i_bounds_from_above(of):
     """The sets that are proved themselves, too."""

@@ -9,6 +9,8 @@ from operator import getitem
 import pytest
 from mpmath import findroot, mp, mpf
 
+from proofs.motion.system import System
+from proofs.motion.witness import HORIZON
 from proofs.search import s32_dimension as dimension
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import Reader
@@ -34,7 +36,7 @@ DIMENSION = Fraction("0.425083744300103")  # see test_dimension: periodic orbits
 @cache
 def proved(words=FULL, hull=HULL):
     """The steps of the full horseshoe, the name of its own, and its conclusion."""
-    prover = Prover(dimension.System(PAPER.eta, PAPER.nu), DIGITS, dimension.HORIZON)
+    prover = Prover(System(PAPER.eta, PAPER.nu), DIGITS, HORIZON)
     run = dimension._Run(PAPER, prover, DIGITS, lambda stage: None)
     name, found = run.repeller(hull, DOMAINS, words)
     return prover.steps, name, found

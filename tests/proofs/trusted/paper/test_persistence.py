@@ -182,12 +182,32 @@ def test_the_short_proof_is_one():
     assert 3 <= len(cells) < 30
 
 
-CHATTER = (MOTION, "witness")
+FLIGHT, CHATTER = (ARC, "witness"), (MOTION, "witness")
 CELL = (*CHATTER, "cells", -1)
 
 
 def widen(ends, by):
     return [add(f"-{by}")(ends[0]), add(by)(ends[1])]
+
+
+EDITS = [
+    ((*FLIGHT, "times"), lambda times: [times[0], *times[-2:]]),
+    ((*FLIGHT, "times"), lambda times: times[-2:]),
+    ((*CHATTER, "box"), lambda box: [widen(ends, "1/2") for ends in box]),
+    ((*CHATTER, "cells"), lambda cells: [cells[0], *cells[-1:]]),
+    ((*CHATTER, "cells"), lambda cells: [*cells, cells[-1]]),
+    ((*CELL, "epsilon", 0), add("1/1000")),
+    ((*CHATTER, "cells", 0, "epsilon", 0), lambda text: "-1/1000"),
+    ((*CELL, "rest"), add("-1/100")),
+    ((*CELL, "bounces", 0), lambda ends: ["0", ends[1]]),
+    ((*CELL, "bounces", 0, 1), add("2")),
+]
+
+
+@pytest.mark.parametrize(("path", "change"), EDITS)
+def test_an_edited_witness_is_refused(path, change):
+    with pytest.raises((Unproved, Malformed)):
+        derive(edited(short(), path, change))
 
 
 def alone(**cell):

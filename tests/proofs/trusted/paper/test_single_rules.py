@@ -179,6 +179,38 @@ def test_windows_are_not_talked_into(document, rule, field, change):
     refused(f"single-{rule}-windows", {**witness, field: change(witness[field])})
 
 
+def first_of(entry, *numbers):
+    """An edit of the first window, from an entry on."""
+    return lambda ends: [[*ends[0][:entry], *numbers, *ends[0][entry + 2 :]], *ends[1:]]
+
+
+@pytest.mark.every
+@pytest.mark.parametrize(
+    ("rule", "field", "change", "reason"),
+    [
+        ("eta", "ends", first_of(0, "1/2", "50001/100000"), "a bracket in"),
+        ("nu", "above", lambda x: [[x[0][0], ["1", "11/10"]], *x[1:]], "in .0, 1. is expected"),
+        ("nu", "above", lambda x: [[None, x[0][1]], *x[1:]], "proved to be at .nu. >= 1"),
+        ("nu", "early", lambda x: [f"1/{10**45}", *x[1:]], "an earlier impact is not proved"),
+        ("below", "ends", first_of(0, "93/100", "1"), "where its lemma looks"),
+        ("below", "late", lambda x: [*x[:2], "3/2", "8/5"], "outside .3/2, 2."),
+        ("below", "touch", lambda x: "5", "within 5/7 of pi"),
+    ],
+)
+def test_windows_are_refused_for_their_reason(document, rule, field, change, reason):
+    (witness,) = steps_of(document, f"single-{rule}-windows")
+    with pytest.raises(REFUSED, match=reason):
+        derived(f"single-{rule}-windows", {**witness, field: change(witness[field])})
+
+
+def test_a_window_has_a_length(document):
+    (witness,) = steps_of(document, "single-nu-windows")
+    found = derived("single-nu-windows", witness)
+    overlap = (1, (ONE / 2, ONE * 3 / 4), (ONE * 5 / 8, ONE * 7 / 8))
+    with pytest.raises(Unproved, match="to have a length"):
+        replace(found, above=(overlap,))
+
+
 def test_windows_are_apart_and_told_of(document):
     (witness,) = steps_of(document, "single-eta-windows")
     refused("single-eta-windows", {**witness, "low": "9/20", "ends": []})

@@ -15,6 +15,8 @@ from tests.oracles.adapter import view
 from tests.oracles.laps import graze
 from tests.proofs.trusted.paper.steps import known_of
 
+pytestmark = pytest.mark.slow  # all that is proved of the entropy is derived
+
 
 @pytest.fixture(scope="module")
 def found():
