@@ -28,8 +28,8 @@ class Derivation:
             self._define(name, function)
 
     def _define(self, name: str, function: Any) -> None:
-        known = self.context.functions
-        known[name] = read_map(name, Reader(function, f"$.functions.{name}"), known)
+        maps = self.context.functions
+        maps[name] = read_map(name, Reader(function, f"$.functions.{name}"), maps)
 
     def map(self, name: str) -> Map:
         """Return a function as the checker reads it."""

@@ -125,7 +125,8 @@ class Store:
         """Yield an atlas of a few proved cells, spread over all: the others are not looked at."""
         query = "SELECT key FROM cells WHERE certificate NOTNULL AND verdict != ? ORDER BY key"
         proved = [key for (key,) in self._rows.execute(query, (SPLIT,))]
-        return self.lines(proved[:: max(len(proved) // _FEW, 1)][:_FEW])
+        few = min(_FEW, len(proved))
+        return self.lines([proved[k * len(proved) // few] for k in range(few)])
 
     def lines(self, only: Container[str] | None = None) -> Iterator[str]:
         """Yield the atlas: region, cells and what is not looked at yet, strip.

@@ -158,6 +158,24 @@ def test_a_file_of_another_system_is_not_replaced(tmp_path):
     assert file.read_text() == kept
 
 
+def test_an_attractor_is_trapped():
+    """By hand: |x'| <= 0.5 + 0.4 sin 1 < 1, |v'| <= 0.9; a union; a box that some images leave."""
+    spiral = Map("x/2 + 0.4*sin(v)", "0.9*x", variables=("x", "v"))
+    (trapped,) = accepted(spiral.trapping(x=("-1", "1"), v=("-1", "1")))
+    assert "`F` has a fixed point in T." in trapped.sentence
+    halves = [{"x": sides, "v": ("-1", "1")} for sides in (("-1", "0"), ("0", "1"))]
+    (union,) = accepted(spiral.trapping(halves[0], **halves[1]))
+    assert "the union of the 2 boxes" in union.sentence
+    for side in (("-0.6", "0.6"), ("-0.1", "1")):
+        with pytest.raises(Undecided, match="images are not all seen to lie in the boxes"):
+            spiral.trapping(x=side, v=("-1", "1"))
+    cylinder = Map("a + v", "v/2 + sin(a)/4", periods={"a": "2*pi"})
+    (ring,) = accepted(cylinder.trapping(a=("0", "7"), v=("-0.6", "0.6")))
+    assert "fixed point" not in ring.sentence
+    with pytest.raises(Undecided, match="all around"):
+        cylinder.trapping(a=("0", "6"), v=("-0.6", "0.6"))
+
+
 # -- systems ---------------------------------------------------------------------------------------
 
 
@@ -467,6 +485,7 @@ def test_the_time_is_over(capsys):
     assert said.count("stopped after 0.7 seconds, as asked") == 2 and "points at random" not in said
 
 
+@pytest.mark.slow
 def test_what_comes_next_is_asked(capsys):
     assert main(["--example", "wall", "--ask", "impact:a=0.3,v=-1", "impact:a=0.3,v=1"]) == 0
     said = capsys.readouterr().out

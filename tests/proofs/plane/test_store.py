@@ -23,7 +23,7 @@ from proofs.commands import atlas
 from proofs.plane import picture, summary
 from proofs.plane.cells import decide
 from proofs.plane.head import Here, run
-from proofs.plane.store import LEAVES, LINES, NAME, SPLIT, Held, Row, opened
+from proofs.plane.store import LEAVES, LINES, NAME, SAMPLE, SPLIT, Held, Row, opened
 from proofs.report.figures.style import style
 from proofs.report.layout import percent
 from proofs.trusted.atlas import LEFT_OUT, NOT_YET, check_atlas
@@ -70,6 +70,10 @@ def test_an_atlas_and_a_cell_of_it(tmp_path, capsys):
     assert "16 VERIFIED cells, all as their certificates prove" in capsys.readouterr().out
     assert check([str(lines), "--jobs", "2", "--quiet"]) == 0
     assert check([str(lines), "--work", made["checker_work"]]) == 0
+    few = list(map(json.loads, (tmp_path / SAMPLE).read_text().splitlines()))[1:]
+    kept = [line["cell"] for line in few if line["certificate"]]
+    assert len(kept) == 10 and (kept[0], kept[-1]) == ("0/00", "0/32")
+    assert check([str(tmp_path / SAMPLE)]) == 1  # the other cells are not looked at
     capsys.readouterr()
     assert atlas.main([*out, "--cell", "0.2122", "-0.2001"]) == 0
     assert "VERIFIED: At eta in [0.2121, 0.2124], nu in [-0.2005, -0.2]" in capsys.readouterr().out

@@ -119,20 +119,6 @@ def test_all_words_in_order(length):
         assert before.word < after.word and before.point[1] < after.point[0]
 
 
-def determinant(exponent, longest):
-    """det(1 - L) of the operator L g = sum of |h'|^s g(h) over inverse branches h, from its traces.
-
-    The trace of L^n is the sum of m^-s / (1 - 1/m) over the multipliers m of the words of length n
-    (Ruelle 1976), and det(1 - z L) = exp(-sum of z^n/n tr L^n), here at z = 1 from its first terms.
-    """
-    series, terms = [mpf(1)], []
-    for n in range(1, longest + 1):
-        multipliers = [as_mpf(sum(row.multiplier) / 2) for row in points(n, 20)]
-        terms.append(-sum(m**-exponent / (1 - 1 / m) for m in multipliers))
-        series.append(sum(terms[k] * series[n - 1 - k] for k in range(n)) / n)
-    return sum(series)
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize(("length", "digits"), [(10, 25), (7, 60)])
 def test_all_orbits_solve_the_equations(length, digits):

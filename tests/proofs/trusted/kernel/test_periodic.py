@@ -23,6 +23,7 @@ from proofs.trusted.kernel.head import read_function
 from proofs.trusted.kernel.meter import Exhausted
 from proofs.trusted.kernel.periodic import _meets, _require_apart
 from proofs.trusted.verify import Rejected, check, premises
+from tests.effort import examples
 from tests.proofs.methods.test_henon import CYCLES
 from tests.proofs.trusted.kernel.lemma_examples import LOGISTIC, henon
 
@@ -66,7 +67,7 @@ def of_galias(period):
     return {d: n for d, n in found.items() if n}
 
 
-@pytest.mark.parametrize("period", [6, 8])  # and so 1, 2, 3, 4
+@pytest.mark.parametrize("period", [6, pytest.param(8, marks=pytest.mark.slow)])  # and so 1 to 4
 def test_the_cycles_of_the_henon_map_are_as_many_as_published(period):
     assert counts(source(HENON, period)) == of_galias(period)
 
@@ -131,7 +132,7 @@ def compare(coefficients, period):
     assert sum(n * d for d, n in found.items()) == len(inside)
 
 
-@settings(max_examples=20)
+@settings(max_examples=examples(20))
 @given(st.lists(st.integers(-12, 12), min_size=2, max_size=4), st.sampled_from([1, 2, 3]))
 def test_periodic_points_of_polynomials_are_the_roots(coefficients, period):
     polynomial = closing(coefficients, period)

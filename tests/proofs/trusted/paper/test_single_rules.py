@@ -184,6 +184,7 @@ def first_of(entry, *numbers):
     return lambda ends: [[*ends[0][:entry], *numbers, *ends[0][entry + 2 :]], *ends[1:]]
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("rule", "field", "change", "reason"),
     [
