@@ -118,6 +118,22 @@ class Map:
         """Enclose where the map takes a point, or a box: image(x="0.2", y=("0", "0.1"))."""
         return self._image(self._derivation(), self.function, state)
 
+    def trapping(self, *others: Box, **state: Ends) -> Theorem:
+        """Prove that a box, or the union of some, is taken into its interior: an attractor.
+
+        trapping(x=("-1.3", "1.3"), y=("-0.4", "0.4")); others: boxes as {"x": (low, high), ...}.
+        """
+        from proofs.methods.trapping import prove_trapping
+
+        file, boxes = (
+            self._derivation(),
+            [box_of(self.variables, each) for each in (state, *others)],
+        )
+        try:
+            return theorem_of(file, [prove_trapping(file, self.function, boxes)])
+        except Unproved as error:
+            raise Undecided(str(error)) from None
+
     def orbits(
         self, period: int = 1, box: Box | None = None, near: Sequence[Mapping[str, Exact]] = ()
     ) -> Theorem:

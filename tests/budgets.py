@@ -19,15 +19,15 @@ from proofs.trusted.rules import RULES
 ROOT = Path(__file__).parents[1]
 GENERATED = ["docs/api.md", "docs/systems.md"]
 BUDGETS = {
-    "proofs": 54_600,
-    "proofs/trusted": 22_700,
+    "proofs": 54_700,
+    "proofs/trusted": 22_850,
     "proofs/search, proofs/motion": 8_500,
     "proofs/shell": 1_760,
     "proofs/benchmark": 1_880,
     "proofs/stress": 1_300,
-    "tests": 44_050,
+    "tests": 44_080,
     "words of the docs": 12_000,  # of those that are written by hand, the README with them
-    "rules outside the kernel": 26,
+    "rules outside the kernel": 24,
     "loose modules": 9,  # of the package proofs
     "tracked files": 905,
     "headline": 8_690,  # lines of the files that run to check reports/horseshoe.json

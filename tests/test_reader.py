@@ -40,10 +40,10 @@ For all launches | rule:first-impact
 - in the window | rule:first-impact
 Everything is evaluated | -
 A phase at which | -
-Differentiating the equation | rule:slope-range
-> f'(φ) | rule:slope-range
-A(φ) being | rule:slope-range
-With an enclosure of f'' | rule:slope-range
+Differentiating the equation | rule:slopes
+> f'(φ) | rule:slopes
+A(φ) being | rule:slopes
+With an enclosure of f'' | rule:slopes
 Let f be | -
 | inequality | -
 | f' > 1 | H2

@@ -17,6 +17,7 @@ from intervals.elementary.ziv import (
     magnitude,
     near_argument,
     near_one,
+    near_or_tight,
     negated,
     odd,
     settled,
@@ -68,9 +69,7 @@ def tan(x: Raw, precision: int) -> Bounds:
         smallest = (low << bits) // (c + error if low >= 0 else c - error)
         return smallest, -((-high << bits) // (c - error if high >= 0 else c + error)), bits
 
-    return near_argument(x, 3, not x[0], precision) or tighten(
-        enclose, precision, max(0, -magnitude(x))
-    )
+    return near_or_tight(x, 3, not x[0], enclose, precision)
 
 
 @odd
@@ -82,9 +81,7 @@ def asin(x: Raw, precision: int) -> Bounds:
         angle, error = angle_fixed(cosine, sine, bits)
         return angle - error - 1, angle + error + 1, bits
 
-    return near_argument(x, 3, True, precision) or tighten(
-        enclose, precision, max(0, -magnitude(x))
-    )
+    return near_or_tight(x, 3, True, enclose, precision)
 
 
 def acos(x: Raw, precision: int) -> Bounds:

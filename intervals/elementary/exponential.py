@@ -7,7 +7,7 @@ the 2^k-th power of a rational. 10^x is dyadic for integers x >= 0.
 
 from mpmath.libmp import fone, from_int, from_man_exp, fzero, mpf_abs, mpf_neg, mpf_pos
 
-from intervals.elementary.constants import log2_fixed, log10_fixed
+from intervals.elementary.constants import Constant, log2_fixed, log10_fixed
 from intervals.elementary.explog import exp_fixed
 from intervals.elementary.ziv import (
     DOWN,
@@ -17,8 +17,8 @@ from intervals.elementary.ziv import (
     Raw,
     beside,
     magnitude,
-    near_argument,
     near_one,
+    near_or_tight,
     odd,
     settled,
     signed,
@@ -68,13 +68,7 @@ def exp2(x: Raw, precision: int) -> Bounds:
     if x[2] >= 0:
         power = from_man_exp(1, int(signed(x)) << x[2])
         return power, power
-    near = near_one(magnitude(x), not x[0], precision)
-
-    def enclose(bits: int) -> Enclosure:
-        y, n, error = exp_fixed(signed(x), x[2], bits, log2_fixed)
-        return y - error, y + error, bits - n
-
-    return near or tighten(enclose, precision)
+    return _power(log2_fixed, x, precision, magnitude(x))
 
 
 def exp10(x: Raw, precision: int) -> Bounds:
@@ -91,13 +85,17 @@ def exp10(x: Raw, precision: int) -> Bounds:
     if x[2] >= 0 and not x[0] and x[1] << x[2] <= precision:
         power = from_int(10 ** int(x[1] << x[2]))
         return mpf_pos(power, precision, DOWN), mpf_pos(power, precision, UP)
-    near = near_one(magnitude(x) + 2, not x[0], precision)
+    return _power(log10_fixed, x, precision, magnitude(x) + 2)
+
+
+def _power(log_base: Constant, x: Raw, precision: int, distance: int) -> Bounds:
+    """Return the bounds of b^x, no number of `precision` bits, where |b^x - 1| < 2^distance."""
 
     def enclose(bits: int) -> Enclosure:
-        y, n, error = exp_fixed(signed(x), x[2], bits, log10_fixed)
+        y, n, error = exp_fixed(signed(x), x[2], bits, log_base)
         return y - error, y + error, bits - n
 
-    return near or tighten(enclose, precision)
+    return near_one(distance, not x[0], precision) or tighten(enclose, precision)
 
 
 def expm1(x: Raw, precision: int) -> Bounds:
@@ -119,9 +117,7 @@ def expm1(x: Raw, precision: int) -> Bounds:
         one = 1 << scale
         return y - error - one, y + error - one, scale
 
-    return near_argument(x, 2, True, precision) or tighten(
-        enclose, precision, max(0, -magnitude(x))
-    )
+    return near_or_tight(x, 2, True, enclose, precision)
 
 
 def _beyond_precision(x: Raw, precision: int) -> bool:
@@ -151,9 +147,7 @@ def sinh(x: Raw, precision: int) -> Bounds:
         a, b, c, d, scale = _exp_both(x, bits)
         return a - d, b - c, scale + 1
 
-    return near_argument(x, 3, True, precision) or tighten(
-        enclose, precision, max(0, -magnitude(x))
-    )
+    return near_or_tight(x, 3, True, enclose, precision)
 
 
 def cosh(x: Raw, precision: int) -> Bounds:
@@ -188,6 +182,4 @@ def tanh(x: Raw, precision: int) -> Bounds:
             bits,
         )
 
-    return near_argument(x, 3, False, precision) or tighten(
-        enclose, precision, max(0, -magnitude(x))
-    )
+    return near_or_tight(x, 3, False, enclose, precision)

@@ -19,6 +19,7 @@ from intervals.elementary.ziv import (
     Raw,
     magnitude,
     near_argument,
+    near_or_tight,
     odd,
     settled,
     tighten,
@@ -128,6 +129,14 @@ def value_fixed(x: Raw, bits: int) -> int:
     return x[1] << shift if shift >= 0 else x[1] >> -shift
 
 
+def _log_of_sum(x: Raw, sign: int, bits: int) -> tuple[int, int]:
+    """Return `log_fixed` of x + sqrt(x^2 + sign), of its floors; of 2 x where x >= 2^bits."""
+    if magnitude(x) > bits:
+        return log_fixed(x[1], x[2] + 1, bits)
+    v = bits + 2
+    return log_fixed(value_fixed(x, v) + root_fixed(*square_and_one(x, sign), v), -v, bits)
+
+
 @odd
 def asinh(x: Raw, precision: int) -> Bounds:
     """Return the bounds of asinh x = log(x + sqrt(x^2 + 1)). 0 < x - asinh x < x^3 for x > 0.
@@ -138,17 +147,10 @@ def asinh(x: Raw, precision: int) -> Bounds:
     """
 
     def enclose(bits: int) -> Enclosure:
-        if magnitude(x) > bits:
-            y, error = log_fixed(x[1], x[2] + 1, bits)
-        else:
-            v = bits + 2
-            root = root_fixed(*square_and_one(x, 1), v)
-            y, error = log_fixed(value_fixed(x, v) + root, -v, bits)
+        y, error = _log_of_sum(x, 1, bits)
         return y - error, y + error + 1, bits
 
-    return near_argument(x, 3, False, precision) or tighten(
-        enclose, precision, max(0, -magnitude(x))
-    )
+    return near_or_tight(x, 3, False, enclose, precision)
 
 
 def acosh(x: Raw, precision: int) -> Bounds:
@@ -161,12 +163,7 @@ def acosh(x: Raw, precision: int) -> Bounds:
         return fzero, fzero
 
     def enclose(bits: int) -> Enclosure:
-        if magnitude(x) > bits:
-            y, error = log_fixed(x[1], x[2] + 1, bits)
-        else:
-            v = bits + 2
-            root = root_fixed(*square_and_one(x, -1), v)
-            y, error = log_fixed(value_fixed(x, v) + root, -v, bits)
+        y, error = _log_of_sum(x, -1, bits)
         return y - error - 1, y + error + 1, bits
 
     return tighten(enclose, precision, closeness(x) // 2)
@@ -185,6 +182,4 @@ def atanh(x: Raw, precision: int) -> Bounds:
         y, error = log_fixed(quotient, -bits, bits)
         return y - error, y + error + 1, bits + 1
 
-    return near_argument(x, 3, True, precision) or tighten(
-        enclose, precision, max(0, -magnitude(x))
-    )
+    return near_or_tight(x, 3, True, enclose, precision)

@@ -102,6 +102,14 @@ def near_argument(x: Raw, order: int, growing: bool, precision: int) -> Bounds |
     return None
 
 
+def near_or_tight(
+    x: Raw, order: int, growing: bool, enclose: Callable[[int], Enclosure], precision: int
+) -> Bounds:
+    """Return the bounds of f(x), about as small as x: by `near_argument`, else by `tighten`."""
+    near = near_argument(x, order, growing, precision)
+    return near or tighten(enclose, precision, max(0, -magnitude(x)))
+
+
 def near_one(distance: int, upward: bool, precision: int) -> Bounds | None:
     """Return the bounds of y, 0 < |y - 1| < 2^distance, if 1 decides them, else None."""
     return beside(fone, upward, precision) if distance <= -precision else None

@@ -72,11 +72,11 @@ def svg(diagram: Diagram) -> str:
 
         figure = plt.figure(figsize=size)
         grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).flat
-        known: dict[str, Artist] = {}
+        artists: dict[str, Artist] = {}
         for axes, (form, curves) in zip(grid, panels.items(), strict=False):
             axes.set(xscale="log", yscale="log", title=form)
             axes.grid(alpha=0.3)
-            known |= _draw(axes, diagram, curves)
+            artists |= _draw(axes, diagram, curves)
         for axes in grid[len(panels) :]:
             axes.set_visible(False)
         if diagram.against == "error":
@@ -85,16 +85,16 @@ def svg(diagram: Diagram) -> str:
         below = min(columns * (rows - 1) + columns // 2, len(panels) - 1)
         grid[below].set_xlabel(diagram.across)
         figure.supylabel("time [s]", fontsize=9)
-        names = list(known)
+        names = list(artists)
         if len(names) > 1:
             wide = 4 if max(map(len, names)) <= 20 else 2
-            figure.legend(known.values(), names, loc="outside lower center", ncols=wide)
+            figure.legend(artists.values(), names, loc="outside lower center", ncols=wide)
         return svg_of(figure, diagram.name, diagram.title)
 
 
 def _draw(axes: Axes, diagram: Diagram, curves: list[Curve]) -> dict[str, Artist]:
     """Draw curves into a panel; return what is drawn by name."""
-    known: dict[str, Artist] = {}
+    artists: dict[str, Artist] = {}
     own = cycle(_OURS)
     for curve in curves:
         colour, mark = of_peer(curve.way) or next(own)
@@ -103,10 +103,10 @@ def _draw(axes: Axes, diagram: Diagram, curves: list[Curve]) -> dict[str, Artist
             name = curve.way.rpartition(", ")[2] if diagram.panels else curve.way
             places, times = zip(*((x, median(p.seconds)) for x, p in points), strict=True)
             line = "-" if curve.against else "none"  # what has no order is not joined
-            (known[name],) = axes.plot(places, times, mark, color=colour, ls=line, ms=4.5, lw=1)
+            (artists[name],) = axes.plot(places, times, mark, color=colour, ls=line, ms=4.5, lw=1)
         for x, p in points:
             axes.plot([x, x], [min(p.seconds), max(p.seconds)], color=colour, lw=0.6)
-    return known
+    return artists
 
 
 def of_peer(way: str) -> tuple[str, str] | None:

@@ -16,12 +16,13 @@ from intervals.rounding import float_down, float_up
 from proofs.benchmark.peers import Range, arithmetic
 from proofs.benchmark.slopes import ETA, MONOTONE, NU, Work, bounds, first_impact
 from proofs.motion import candidate
-from proofs.motion.branch import Branch
 from proofs.motion.covering import cover_by
 from proofs.motion.marching import march
 from proofs.motion.system import System
 from proofs.motion.witness import HORIZON, FlightBox, Seen, locate
 from proofs.search.image import Image, image
+from proofs.trusted.kernel.enclose import enclosed
+from proofs.trusted.oscillator import PlasticMap
 
 SYSTEM = System(ETA, NU)
 DOMAINS = ((Fraction("1.11"), Fraction("1.15")), (Fraction("1.27"), Fraction("1.32")))
@@ -72,11 +73,11 @@ def works(boxes: int) -> list[Work]:
 def work(domain: Range, boxes: int) -> Work:
     """Return the work of one domain, on times before every impact that the lemmas find."""
     (seen,) = cover_by(_flights(domain))
-    branch = Branch([("", seen.proved())], _SIGN_BITS)
+    map_ = PlasticMap(SYSTEM.place)
     low, high = domain
     cuts = [float_down(low), *np.linspace(float(low), float(high), boxes + 1)[1:-1], float_up(high)]
     exact = [low, *map(Fraction, cuts[1:-1]), high]
-    times = [branch.flight(*ends)[1] for ends in pairwise(exact)]
+    times = [map_.impact(enclosed((ends,), _SIGN_BITS)).range for ends in pairwise(exact)]
     brackets = [(float(x) * (1 - _OPENING), float(y) * (1 + _OPENING)) for x, y in times]
     centres = [_about((x + y) / 2) for x, y in pairwise(cuts)]
     return Work(domain, cuts, _grid(seen), brackets, centres, [*map(_about, map(float, domain))])

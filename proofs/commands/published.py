@@ -210,6 +210,7 @@ def _flows() -> list[Published]:
                 "orbits-2": lambda: roessler.orbits(2),
                 "orbits-3": lambda: roessler.orbits(3),
                 "horseshoe": patient.horseshoe,
+                "trapping": lambda: roessler.trapping(p=("-10.8", "-2.2"), q=("0.027", "0.035")),
             },
             [
                 "The map is the first return to the half plane x = 0, x rising. In the direction "
@@ -218,7 +219,7 @@ def _flows() -> list[Published]:
             ],
             [
                 "that there are no other orbits of these periods",
-                "an attractor: no rule says that an image lies in the interior of a box",
+                "that motions in the attractor are chaotic: the horseshoe is a part of it",
             ],
         ),
         _of(

@@ -63,6 +63,11 @@ _QUESTIONS = {
         "the map, or its second iterate, has a full shift on two symbols", "horseshoe", ""
     ),
     "image": Question("where the map takes these states", "image:X=A,Y=B:C", _STATE),
+    "trapping": Question(
+        "the map takes this box into its interior: there is an attractor in it",
+        "trapping:X=A:B,Y=C:D",
+        _SIDE,
+    ),
     "impact": Question(
         "it is known what comes after these states: an impact, none ever, or no flight",
         "impact:X=A,Y=B:C",
@@ -183,6 +188,8 @@ def _options(arguments: list[str] | None) -> Namespace:
     share(parser, "--out", "--json", "--quiet")
     options = parser.parse_args(arguments)
     options.parser = parser
+    if options.seconds <= 0:
+        parser.error(f"some seconds are expected, not {show(options.seconds)}")
     if options.figure and not options.out:
         parser.error("--figure goes to the folder of --out")
     return options

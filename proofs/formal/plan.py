@@ -13,7 +13,7 @@ from proofs.trusted.kernel.moran import MoranRoot
 from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Range, hull
 from proofs.trusted.parameters import Parameters
-from proofs.trusted.slopes import Impact
+from proofs.trusted.slopes import Impact, impacts
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Report, check
 
@@ -82,7 +82,7 @@ def plan(source: str, report: Report | None = None) -> Plan:
         for name, each in claims.items()
         if each.verdict is not Verdict.UNDECIDED and (of.signs == (1, 1) or name not in _OF_RISING)
     }
-    points = {name: x for name in decided for x in proofs[name] if isinstance(x, Impact)}
+    points = {name: x for name in decided for x in impacts(proofs[name])}
     found = [x for name in (decided if claims else proofs) for x in proofs[name]]
     result = Plan(
         of,

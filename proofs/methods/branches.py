@@ -64,8 +64,8 @@ def residual(
 
 
 def _require_one(function: Mapping[str, Any]) -> dict[str, Any]:
-    if "maps" in function:
-        raise Undecided("branches are followed of maps with one wall, or formulas")
+    if "maps" in function or "field" in function:
+        raise Undecided("branches are followed of formulas, and of one wall with a closed form")
     return dict(function)
 
 

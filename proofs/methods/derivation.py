@@ -28,8 +28,8 @@ class Derivation:
             self._define(name, function)
 
     def _define(self, name: str, function: Any) -> None:
-        known = self.context.functions
-        known[name] = read_map(name, Reader(function, f"$.functions.{name}"), known)
+        maps = self.context.functions
+        maps[name] = read_map(name, Reader(function, f"$.functions.{name}"), maps)
 
     def map(self, name: str) -> Map:
         """Return a function as the checker reads it."""
@@ -61,7 +61,7 @@ class Derivation:
     def undone(self) -> Iterator[None]:
         """Take back the steps and functions made inside if that fails; the failure goes on."""
         functions = self.functions
-        tables: tuple[dict[str, Any], ...] = self.steps, self.known, self.context.functions
+        tables: list[dict[str, Any]] = [self.steps, self.known, self.context.functions]
         before = [dict(table) for table in tables]
         try:
             yield

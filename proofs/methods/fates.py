@@ -12,7 +12,8 @@ from proofs.methods.newton import Cycle, cycles, distance, seeds, whole_periods
 from proofs.methods.sampling import Floats, Sampled
 from proofs.trusted.numbers import Range
 
-_FOLLOWED, _SETTLING, _FAR, _CLOSE = 30, 150, 1e6, 1e-3  # points of an attractor
+_FOLLOWED, _FAR, _CLOSE = 30, 1e6, 1e-3  # points of an attractor
+_SETTLING, _BRIEFLY = 150, 50  # steps, and those of flows
 _NEUTRAL = 1e-6  # so much less than 1 are multipliers of an attracting orbit
 _ANGLES = (
     ("2*pi", 2 * np.pi),
@@ -25,17 +26,20 @@ class Followed(NamedTuple):
 
     points: Floats
     ends: Counter[str]
+    steps: int
 
 
+@np.errstate(all="ignore")
 def followed(sampled: Sampled, box: Sequence[Range]) -> Followed:
     """Follow points at random in a box."""
     x, ends = seeds(sampled, box, _FOLLOWED, 0)[:, :_FOLLOWED], Counter[str]()
-    for _ in range(_SETTLING):
+    steps = _BRIEFLY if sampled.has_flows else _SETTLING
+    for _ in range(steps):
         after = sampled.reduced(sampled(x))
         goes_on = np.isfinite(after).all(axis=0) & (np.abs(after) < _FAR).all(axis=0)
         ends.update(_end(sampled, point[:, None]) for point in x.T[~goes_on])
         x = after[:, goes_on]
-    return Followed(x, ends)
+    return Followed(x, ends, steps)
 
 
 def _end(sampled: Sampled, x: Floats) -> str:
@@ -47,6 +51,7 @@ def _end(sampled: Sampled, x: Floats) -> str:
     return f"beyond {_FAR:g}"
 
 
+@np.errstate(all="ignore")
 def attractors(sampled: Sampled, x: Floats, longest: int) -> list[Cycle]:
     """Return the attracting periodic orbits, up to a period, that settled points come to."""
     found: list[Cycle] = []
@@ -61,9 +66,10 @@ def attractors(sampled: Sampled, x: Floats, longest: int) -> list[Cycle]:
     return found
 
 
+@np.errstate(all="ignore")
 def fates(sampled: Sampled, box: Sequence[Range], longest: int) -> list[str]:
     """Say what becomes of points at random in a box."""
-    points, ends = followed(sampled, box)
+    points, ends, steps = followed(sampled, box)
     orbits = attractors(sampled, points, longest)
     place = ", ".join(
         f"{name} in [{float(low):.6g}, {float(high):.6g}]"
@@ -71,7 +77,7 @@ def fates(sampled: Sampled, box: Sequence[Range], longest: int) -> list[str]:
     )
     lines = [
         f"of {_FOLLOWED} points at random, {place}, {points.shape[1]} are followed for "
-        f"{_SETTLING} steps"
+        f"{steps} steps"
     ]
     lines += [f"{count} end before: {why}" for why, count in ends.most_common()]
     near = [{k for k, each in enumerate(orbits) if _comes_to(sampled, x, each)} for x in points.T]
@@ -83,7 +89,7 @@ def fates(sampled: Sampled, box: Sequence[Range], longest: int) -> list[str]:
             )
     if others := sum(not each for each in near):
         lines.append(f"{others} come to no orbit of a period up to {longest}")
-    return [*lines, *_angles(sampled, points)]
+    return [*lines, *_angles(sampled, seeds(sampled, box, _FOLLOWED, 0))]
 
 
 def _comes_to(sampled: Sampled, point: Floats, cycle: Cycle) -> bool:
@@ -91,8 +97,8 @@ def _comes_to(sampled: Sampled, point: Floats, cycle: Cycle) -> bool:
 
 
 def _angles(sampled: Sampled, x: Floats) -> list[str]:
-    """Say which variables without a period could have one."""
-    lines = []
+    """Say which variables without a period could have one, from points at random."""
+    lines, x = [], x[:, np.isfinite(sampled(x)).all(axis=0)]
     for k, name in enumerate(sampled.map.variables):
         if np.isfinite(sampled.periods[k]) or not x.size:
             continue
@@ -109,4 +115,4 @@ def _respects(sampled: Sampled, x: Floats, k: int, period: float) -> bool:
     turned[k] += period
     change = (sampled(turned) - sampled(x)) / period
     change[k] -= np.round(change[k])
-    return bool(np.abs(change).max() < _NEUTRAL)
+    return bool((np.abs(change) < _NEUTRAL).all())

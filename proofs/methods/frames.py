@@ -157,7 +157,7 @@ def laps(sampled: Sampled, side: Range) -> Frames:
     rises = np.sign(np.diff(y))
     turns = [0, *(np.flatnonzero(rises[1:] != rises[:-1]) + 1), len(x) - 1]
     pieces = [slice(a, b + 1) for a, b in pairwise(turns) if b - a > 2]
-    best, found = 0.0, None
+    best, sides = 0.0, None
     for bottom, top in combinations(np.linspace(low, high, _LEVELS), 2):
         sets = []
         for piece in pieces:
@@ -173,10 +173,10 @@ def laps(sampled: Sampled, side: Range) -> Frames:
         steepness = [np.abs(np.gradient(y, x)[(x >= a) & (x <= b)]).min(initial=9) for a, b in sets]
         chosen = sorted(np.argsort(steepness)[-2:])
         if min(steepness[k] for k in chosen) > best:
-            best, found = min(steepness[k] for k in chosen), [sets[k] for k in chosen]
-    if found is None:
+            best, sides = min(steepness[k] for k in chosen), [sets[k] for k in chosen]
+    if sides is None:
         raise Undecided("no two monotone pieces cross an interval")
-    low_ends, high_ends = np.array(found).T
+    low_ends, high_ends = np.array(sides).T
     arrows = tuple((i, j) for i in range(2) for j in range(2))
     middle, radius = (low_ends + high_ends) / 2, (high_ends - low_ends) / 2
     return Frames(middle[:, None], radius[:, None, None], arrows)

@@ -62,17 +62,17 @@ def written(box: Box) -> list[list[str]]:
 
 def bounds_of(text: str, box: Mapping[str, Range], sign: int) -> tuple[Range, Tree]:
     """Bound a formula that has a sign on a box; return bounds with room, and a subdivision."""
-    found: list[Range] = []
+    ranges: list[Range] = []
 
     def decided(part: Values) -> bool:
         low, high = sorted((sign * part[0].inf, sign * part[0].sup))
         if low > 0:
-            found.append((low, high))
+            ranges.append((low, high))
         return low > 0
 
     tree = _divided(text, box, decided)
     lower, upper = decimal_bounds(
-        min(low for low, _ in found) / 2, max(high for _, high in found) * 2, _COARSE_DIGITS
+        min(low for low, _ in ranges) / 2, max(high for _, high in ranges) * 2, _COARSE_DIGITS
     )
     low, high = sorted((sign * Fraction(lower), sign * Fraction(upper)))
     return (low, high), tree
@@ -97,11 +97,11 @@ def witness_of(lemma: Equal | Series) -> dict[str, Any]:
     }
 
 
-def solution_witness(found: Expressions) -> dict[str, Any]:
+def solution_witness(solution: Expressions) -> dict[str, Any]:
     """Return what the checker needs for expressions that solve equations."""
     return {
-        "expressions": {name: str(value) for name, value in found.expressions},
-        "lemmas": [witness_of(each) for each in found.lemmas],
+        "expressions": {name: str(value) for name, value in solution.expressions},
+        "lemmas": [witness_of(each) for each in solution.lemmas],
     }
 
 
@@ -149,8 +149,8 @@ class Lemmas(Derivation):
         """Add a step `formula-value` with as narrow bounds as a box allows; return them."""
         formulas = read_formulas(Reader(text))
         sides = [Interval(*box.get(x, _UNUSED), precision=bits) for x in formulas.variables]
-        (found,) = values(formulas, sides)
-        lower, upper = map(Fraction, decimal_bounds(found.inf, found.sup, digits))
+        (value,) = values(formulas, sides)
+        lower, upper = map(Fraction, decimal_bounds(value.inf, value.sup, digits))
         self._value(text, _sides(box), (lower, upper), None)
         return lower, upper
 
@@ -171,8 +171,8 @@ class Lemmas(Derivation):
 
     def solution(self, expressions: Mapping[str, str], *lemmas: Equal | Series) -> str:
         """Add a step `formula-solution`."""
-        found = Expressions(tuple((x, formula(y)) for x, y in expressions.items()), lemmas)
-        return self.add("formula-solution", solution_witness(found))
+        expressed = Expressions(tuple((x, formula(y)) for x, y in expressions.items()), lemmas)
+        return self.add("formula-solution", solution_witness(expressed))
 
     # -- zeros ---------------------------------------------------------------------------------
 
@@ -191,12 +191,12 @@ class Lemmas(Derivation):
         while high - low > width / 4:
             # next to the root, or at it, take another point
             for middle in ((low + high) / 2, (low + 2 * high) / 3):
-                (found,) = values(formulas, [Interval(middle, precision=bits)])
-                if not found.contains_zero():
+                (side,) = values(formulas, [Interval(middle, precision=bits)])
+                if not side.contains_zero():
                     break
             else:
                 raise Undecided("the sign beside the root")
-            if (found.inf > 0) == (sign > 0):
+            if (side.inf > 0) == (sign > 0):
                 high = middle
             else:
                 low = middle

@@ -153,7 +153,8 @@ def prove_orbits(file: Derivation, function: str, cycles: Sequence[Cycle]) -> li
             place = ", ".join(f"{value:.6g}" for value in cycle.points[0])
             reason = f"of {len(cycles)} that are seen none, such as that through ({place}): {error}"
     if not steps:
-        raise Undecided(reason)
+        hint = "; narrower ranges of parameters may do" if ranges_of(file.map(function)) else ""
+        raise Undecided(reason + hint)
     return steps
 
 

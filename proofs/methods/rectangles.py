@@ -153,13 +153,13 @@ def _points(
 
 def _directions(slopes: Floats) -> Floats:
     """Return the directions that products of matrices along cycles turn to."""
-    found: Floats = np.empty(slopes.shape[:3])
+    directions: Floats = np.empty(slopes.shape[:3])
     direction: Floats = np.ones((len(slopes), 2))
     for i in list(range(slopes.shape[1])) * _ROUNDS:
-        found[:, i] = direction
+        directions[:, i] = direction
         direction = _times(slopes[:, i], direction)
         direction /= np.linalg.norm(direction, axis=1, keepdims=True)
-    return found * np.where(found[..., :1] < 0, -1.0, 1.0)
+    return directions * np.where(directions[..., :1] < 0, -1.0, 1.0)
 
 
 # -- sides -----------------------------------------------------------------------------------------

@@ -47,7 +47,7 @@ def compiled(tape: Tape, roots: Sequence[int]) -> Function:
         if op == "variable":
             value = f"x[{int(datum)}]"
         elif op == "number":
-            value = repr(float(datum))
+            value = f"np.float64({float(datum)!r})"  # which divides by 0, as arrays do
         elif op == "pi":
             value = "np.pi"
         elif op == "^":
@@ -116,7 +116,12 @@ class Sampled:
     @property
     def starts(self) -> int:
         """The number of points at random for a search: fewer of a flow, where each is dear."""
-        return _FEW if any(isinstance(part, Flow) for part in self.parts) else _STARTS
+        return _FEW if self.has_flows else _STARTS
+
+    @property
+    def has_flows(self) -> bool:
+        """Whether a part of it is a flow without a closed form, which takes long."""
+        return any(isinstance(part, Flow) for part in self.parts)
 
     @property
     def parts(self) -> tuple[Map, ...]:
@@ -160,14 +165,15 @@ class Sampled:
 
     def turns(self, x: Floats) -> Floats:
         """Return the whole periods in the angles of points."""
-        return np.floor(x / self.periods[:, None])
+        with np.errstate(invalid="ignore"):
+            return np.floor(x / self.periods[:, None])
 
     def expanded(self, x: Floats) -> tuple[Floats, Floats]:
         """Return the images of points, of the shape (points, n), and the derivatives there.
 
         By the derivatives of the formulas; of flows, by differences.
         """
-        if any(isinstance(part, Flow) for part in self.parts):
+        if self.has_flows:
             return self._differences(x)
         product = np.broadcast_to(np.eye(len(x)), (x.shape[1], len(x), len(x)))
         with np.errstate(all="ignore"):

@@ -1,4 +1,4 @@
-"""Horseshoes of any map: covering relations, graph, entropy and cones, concluded by the rules."""
+"""Horseshoes of any map: covering relations, graph and entropy, concluded by the rules."""
 
 from __future__ import annotations
 
@@ -6,38 +6,33 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
 from functools import partial
-from itertools import combinations, islice, product
-from math import log2
+from itertools import combinations
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from intervals import Undecided
+from proofs.methods.cones import add_cone, graph_of
 from proofs.methods.derivation import Derivation
-from proofs.methods.formulas import Tree, inverse, shares, subdivide
+from proofs.methods.divisions import holds, scale_of
+from proofs.methods.formulas import Tree, inverse, subdivide
 from proofs.methods.frames import Frames, crossing, frames, laps, widened
 from proofs.methods.newton import distance
 from proofs.methods.sampling import Floats, Sampled
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.cones import Form, check_cone
 from proofs.trusted.kernel.covers import HSet, LocalMap, Rows, beyond, cube
-from proofs.trusted.kernel.enclose import Box, attempts, enclosed
-from proofs.trusted.kernel.flow import Flow
-from proofs.trusted.kernel.graph import Graph
+from proofs.trusted.kernel.enclose import Box, enclosed
 from proofs.trusted.kernel.maps import Map
 from proofs.trusted.kernel.meter import Exhausted, metered
-from proofs.trusted.numbers import Range, hull
+from proofs.trusted.numbers import Range
 
 _BITS = 64
 _MOST_BOXES = 128  # of a tree
-_WEIGHTS = ("1", "4", "1/4", "16")  # of stable directions in cone conditions
 _MOST_PAIRS, _MOST_PROOFS, _LONGEST_WORD = 40, 3, 4
 _WORK = 8_000_000  # of all attempts at one iterate
-_PARTS = (1, 16)  # of a side of an h-set, on which derivatives are enclosed
 _CUBE = (Fraction(-1), Fraction(1))
 _AMPLE = 0.3  # by so much sets cross that they are tried before others are looked at
-_STRIP, _LEAST = (-Fraction(1, 16), Fraction(1, 16)), Fraction(1, 2**20)
 
 
 def add_h_set(file: Derivation, centre: tuple[Fraction, ...], matrix: Rows) -> str:
@@ -72,7 +67,7 @@ def add_covers(
     tip = local.values(enclosed(((Fraction(1),) * 2, *((Fraction(0),) * 2,) * (n - 1)), _BITS))[0]
     way = 1 if tip.lo + tip.hi > 0 else -1
     ends = [((end, end), *cube(n - 1)) for end in _CUBE]
-    tree = partial(_tree, local, scale=_scale(local, n), most=most)
+    tree = partial(_tree, local, scale=scale_of(local, cube(n)), most=most)
     trees = {
         "left": tree(ends[0], lambda values: beyond(values[0], -way)),
         "right": tree(ends[1], lambda values: beyond(values[0], way)),
@@ -96,32 +91,13 @@ def _turns(map_: Map, power: int, source: HSet, target: HSet) -> tuple[int, ...]
     return tuple(int(np.round(apart[c.place] / sampled.periods[c.place])) for c in map_.circles)
 
 
-def _scale(local: LocalMap, n: int) -> Box:
-    """Return sides whose images are enclosed about equally widely, to halve boxes by."""
-    units = []
-    for j in range(n):
-        strip = [_STRIP if k == j else (Fraction(0),) * 2 for k in range(n)]
-        values = local.values(enclosed(tuple(strip), _BITS))
-        reach = max(high - low for low, high in (x.range for x in values))
-        units.append((Fraction(0), 1 / max(reach, _LEAST)))
-    return tuple(units)
-
-
-def _tree(local: LocalMap, box: Box, holds: Any, scale: Box, most: int) -> Tree:
-    return subdivide(box, lambda part: _holds(local, part, holds), scale, most)
-
-
-def _holds(local: LocalMap, box: Box, holds: Any) -> bool:
-    ways = 1 if isinstance(local.map, Flow) else 2  # a flow's values have the mean value form
-    try:
-        return any(holds(values) for values in islice(attempts(local, box, (_BITS,)), ways))
-    except Unproved:
-        return False
+def _tree(local: LocalMap, box: Box, test: Any, scale: Box, most: int) -> Tree:
+    return subdivide(box, lambda part: holds(local, part, test), scale, most)
 
 
 def add_entropy(file: Derivation, graph: str, longest: int) -> str:
     """Add a step `entropy`: the best of the bounds from path lengths up to `longest`."""
-    step = _graph(file, graph)
+    step = graph_of(file, graph)
     vector = _perron(step.edges, len(step.nodes))
     image, best = vector, (0.0, 1, 0)
     for length in range(1, longest + 1):
@@ -132,8 +108,8 @@ def add_entropy(file: Derivation, graph: str, longest: int) -> str:
     _, length, growth = best
     if growth < 1:
         raise Undecided("the graph has no closed path, or the vector shows none")
-    found = {"length": str(length), "vector": list(map(str, vector)), "growth": str(growth)}
-    return file.add("entropy", {"graph": graph, **found})
+    bound = {"length": str(length), "vector": list(map(str, vector)), "growth": str(growth)}
+    return file.add("entropy", {"graph": graph, **bound})
 
 
 def _perron(edges: Sequence[tuple[int, int]], count: int) -> list[int]:
@@ -145,131 +121,6 @@ def _perron(edges: Sequence[tuple[int, int]], count: int) -> list[int]:
         if largest > 10**12:
             vector = [v * 10**9 // largest for v in vector]
     return vector
-
-
-def _graph(file: Derivation, name: str) -> Graph:
-    step = file.conclusion(name)
-    if not isinstance(step, Graph):
-        raise TypeError(f"{name} is not a graph")
-    return step
-
-
-def add_cone(file: Derivation, graph: str, forms: Sequence[Form] = ()) -> str:
-    """Add a step `cone`, with one form for all h-sets, the first that is proved of some.
-
-    Raises Undecided or Unproved.
-    """
-    step = _graph(file, graph)
-    scales = [_scale(cover.local, len(step.nodes[0].centre)) for cover in step.covers]
-    for form, parts in product(forms or _forms(step), _PARTS):
-        try:
-            relations = [
-                _cone_relation(cover.local, form, scale, parts)
-                for cover, scale in zip(step.covers, scales, strict=True)
-            ]
-        except Undecided:
-            continue
-        witness = {"forms": [texts(form)] * len(step.nodes), "relations": relations}
-        return file.add("cone", {"graph": graph, **witness})
-    raise Undecided("no form of the cone condition is found")
-
-
-def _forms(graph: Graph) -> list[Form]:
-    """Return forms to try: weights that balance what mixes the directions come first.
-
-    With D = (a, b; c, d) and the form q_1^2 - w q_2^2 the condition is about a^2 > 1 + w c^2 and
-    w > b^2 / (a^2 - 1): for flows, where c is enclosed widely and b is tiny, w = b / c.
-    """
-    n = len(graph.nodes[0].centre)
-    usual = [(Fraction(1), *(-Fraction(weight),) * (n - 1)) for weight in _WEIGHTS]
-    if n == 1:
-        return usual[:1]
-    most = [[Fraction(0)] * n for _ in range(n)]
-    for cover in graph.covers:
-        strip = enclosed((_STRIP, *cube(n - 1)), _BITS)
-        for row, entries in zip(most, cover.local.jacobian(strip), strict=True):
-            for j, entry in enumerate(entries):
-                row[j] = max(row[j], *map(abs, entry.range))
-    pairs = [(most[0][j], most[j][0]) for j in range(1, n)]
-    if not all(min(pair) for pair in pairs):
-        return usual
-    weights = [Fraction(2) ** round(log2(one / two)) for one, two in pairs]
-    return [(Fraction(1), *(-weight for weight in weights)), *usual]
-
-
-def _cone_relation(local: LocalMap, form: Form, scale: Box, parts: int) -> dict[str, Any]:
-    """Return what `cone` is told about a relation: a box, bounds on its derivatives, trees.
-
-    [-1, 1]^n is halved until each part is mapped out of the target, or derivatives on it are
-    enclosed that obey the condition, the part being small enough. The box is around these parts.
-    """
-    whole, inner = cube(len(scale)), list[Box]()
-    smallest = max(shares(whole, scale)) / parts
-
-    def decided(part: Box) -> bool:
-        try:
-            check_cone(_entries(local, part), form, form, (_BITS,))
-        except Unproved:
-            return _holds(local, part, lambda values: any(map(beyond, values)))
-        if is_small := max(shares(part, scale)) <= smallest:
-            inner.append(part)
-        return is_small
-
-    tree = subdivide(whole, decided, scale, _MOST_BOXES)
-    box = tuple(map(hull, zip(*inner, strict=True))) if inner else whole
-    own, boxes = _within(tree, box)
-    rows = [_entries(local, part) for part in boxes]
-    bounds = tuple(_rounded(hull(sides)) for sides in zip(*rows, strict=True))
-    return {
-        "box": list(map(texts, box)),
-        "outside": tree,
-        "jacobian": list(map(texts, bounds)),
-        "tree": own,
-        "matrices": _cone_tree(bounds, form),
-    }
-
-
-def _entries(local: LocalMap, box: Box) -> Box:
-    """Enclose the derivatives on a box, row by row."""
-    rows = local.jacobian(enclosed(box, _BITS))
-    return tuple(entry.range for row in rows for entry in row)
-
-
-def _within(tree: Tree, box: Box) -> tuple[Tree, list[Box]]:
-    """Return the part of a tree that divides a smaller box, and its leaves."""
-    if tree is None:
-        return None, [box]
-    axis, cut = int(tree[0]) - 1, Fraction(tree[1])
-    low, high = box[axis]
-    if high <= cut or cut <= low:
-        return _within(tree[2 if high <= cut else 3], box)
-    sides = [(*box[:axis], ends, *box[axis + 1 :]) for ends in ((low, cut), (cut, high))]
-    (one, first), (two, second) = (
-        _within(part, side) for part, side in zip(tree[2:], sides, strict=True)
-    )
-    return [*tree[:2], one, two], first + second
-
-
-def _rounded(side: Range) -> Range:
-    """Return an interval around another one, with few digits."""
-    low, high = side
-    unit = Fraction(1, 2**20)
-    while 1024 * unit < high - low:
-        unit *= 2
-    return (low // unit - 1) * unit, (high // unit + 2) * unit
-
-
-def _is_cone(matrices: Box, form: Form) -> bool:
-    try:
-        check_cone(matrices, form, form, (_BITS,))
-    except Unproved:
-        return False
-    return True
-
-
-def _cone_tree(jacobian: Box, form: Form) -> Tree:
-    scale = ((Fraction(0), Fraction(1)),) * len(jacobian)  # derivatives are compared as they are
-    return subdivide(jacobian, lambda part: _is_cone(part, form), scale, _MOST_BOXES)
 
 
 def prove_shift(

@@ -6,9 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+from proofs.methods.cones import add_cone
 from proofs.methods.lemmas import Lemmas, Number, Sides, exact
 from proofs.methods.periodic import prove_all_orbits
-from proofs.methods.shifts import add_cone, add_covers, add_entropy, add_h_set
+from proofs.methods.shifts import add_covers, add_entropy, add_h_set
 
 _MOST_BOXES = 10_000  # of a tree
 

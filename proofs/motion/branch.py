@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from itertools import pairwise
 
 from proofs.motion.brackets import halvings_for, impact_time, impact_times
 from proofs.motion.witness import FLOATS, FlightBox
-from proofs.trusted.certificate import texts
+from proofs.trusted.equations import Clock, Launch, gap, slope
 from proofs.trusted.flights import FirstImpact, Motion, bracketed
-from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.arithmetic import Dual, Enclosure, Unproved
+from proofs.trusted.kernel.gaps import fall
 from proofs.trusted.numbers import Range, within
 
 _SPARE = 5  # halvings of a window beyond the width of the phases
@@ -63,25 +63,20 @@ class Branch:
 
     def slope(self, low: Fraction, high: Fraction) -> Range:
         """Enclose f' over [low, high], a subset of one part."""
-        motion, time = self.flight(low, high)
-        return motion.slope(time).range
+        start, now, down = self._impacts(low, high)[1:]
+        value: Enclosure = slope(start, now, down)
+        return value.range
 
     def curvature(self, low: Fraction, high: Fraction) -> Range:
-        """Enclose f'' over [low, high], a subset of one part."""
+        """Enclose f'': the derivative of the slope along (phi + s, t + (f' - 1) s)."""
+        motion, start, now, down = self._impacts(low, high)
+        time, faster = self.flight(low, high)[1], slope(start, now, down) - 1
+        change = gap(motion.moving, now, 1).derivative + gap(start, now, 2) * faster
+        later = motion.clock(Dual(Enclosure.of(*time, motion.bits), faster))
+        bent: Dual = slope(motion.moving, later, Dual(down, change))
+        return bent.derivative.range
+
+    def _impacts(self, low: Fraction, high: Fraction) -> tuple[Motion, Launch, Clock, Enclosure]:
+        """Return the launches in [low, high], with their states, and clock and gap' at impacts."""
         motion, time = self.flight(low, high)
-        return motion.curvature(time).range
-
-    def witness(self, cuts: Sequence[Fraction]) -> dict[str, object]:
-        """Return what rule `slope-range` takes."""
-        return {
-            "points": [self.bracket(x, x, phase=str(x)) for x in cuts],
-            "pieces": [self.bracket(*piece) for piece in pairwise(cuts)],
-        }
-
-    def bracket(self, low: Fraction, high: Fraction, **more: str) -> dict[str, object]:
-        """Return what a rule takes: the step about these flights, and when they have impacts."""
-        return {
-            "flight": self.part((low, high))[0],
-            **more,
-            "time": texts(self.flight(low, high)[1]),
-        }
+        return motion, motion.start(), motion.clock(time), fall(motion.gap_of, time)

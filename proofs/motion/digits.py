@@ -7,8 +7,9 @@ from fractions import Fraction
 from typing import TypeVar
 
 from intervals.errors import DomainError, Undecided
+from proofs.trusted.flights import lifted, whole_turns
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.numbers import Range, agree
+from proofs.trusted.numbers import Range
 
 MOST_DIGITS = 1000  # that can be asked for
 _ATTEMPTS = 6
@@ -18,6 +19,11 @@ _Answer = TypeVar("_Answer")
 def bits_for(digits: int, attempt: int = 0) -> int:
     """Return the binary places for so many significant digits, at first or at a later attempt."""
     return digits * 10 // 3 + (20 << 2 * attempt)
+
+
+def agree(bounds: Range, digits: int) -> bool:
+    """Whether two bounds are equal to `digits` significant digits."""
+    return bounds[1] - bounds[0] <= min(abs(bounds[0]), abs(bounds[1])) / Fraction(10) ** digits
 
 
 def around(value: Fraction, bits: int) -> Range:
@@ -51,3 +57,15 @@ def to_digits(
             return found
     reason = reason or "the result is too close to 0 or to grazing"
     raise Undecided(f"{digits} digits are not reached: {reason}")
+
+
+def phase_after(phase: Fraction, time: Range, bits: int) -> Range:
+    """Enclose phase + time, less the multiple of 2 pi that puts its lower end in [0, 2 pi).
+
+    The upper end may lie beyond 2 pi.
+    """
+    total = phase + time[0]
+    count = total // whole_turns(1, bits)[0]
+    if total < whole_turns(count, bits)[1]:  # the multiple is not decided: take the smaller one
+        count -= 1
+    return lifted((total, phase + time[1]), -count, bits)

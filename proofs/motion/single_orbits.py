@@ -12,10 +12,10 @@ from functools import lru_cache
 from typing import Any
 
 from intervals import Interval, Undecided
+from proofs.motion.digits import phase_after
 from proofs.motion.system import System
 from proofs.motion.witness import FlightBox, march
 from proofs.trusted.equations import Launch, launch, launch_acceleration, sincos
-from proofs.trusted.flights import phase_after
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.numbers import COVER_BITS, Range
 from proofs.trusted.paper.s4_single.orbits import records

@@ -21,7 +21,10 @@ from proofs.plane.steps import Steps, bracket, corners, times_for
 from proofs.trusted.certificate import texts
 from proofs.trusted.equations import launch, launch_acceleration
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.differential import BITS, sharp_values
+from proofs.trusted.kernel.enclose import enclosed
 from proofs.trusted.numbers import TURN, Range, hull
+from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.paper.beyond.attractors import AtRest
 from proofs.trusted.parameters import Place
 
@@ -255,23 +258,16 @@ def _rounded(low: float, high: float) -> Range:
 
 
 def _cell(made: Steps, phases: Range) -> Cell:
-    """Add what encloses f' on a cell (rule slope-range), f being monotone."""
-    etas, nus = corners(made.box)
-    ends = np.array([float(end) for end in phases])
-    seen = next_impacts(made.box.side, etas, nus, ends[:, None], _FARTHEST).times
-    if not np.isfinite(seen).all():
-        raise Undecided("an impact is not seen to be followed by another one")
-    flight, times = made.impact(phases, float(seen.max()))
-    brackets = {
-        part: bracket(made.box, part, times)
-        for part in ((phases[0],) * 2, (phases[1],) * 2, phases)
-    }
-    points = [
-        {"flight": flight, "phase": str(end), "time": texts(brackets[end, end])} for end in phases
-    ]
-    piece = {"flight": flight, "time": texts(brackets[phases])}
-    name = made.add("slope-range", {"points": points, "pieces": [piece]})
-    images = [(end + time[0], end + time[1]) for end in phases for time in [brackets[end, end]]]
+    """Add what encloses f' on a cell (rule slopes), f being monotone."""
+    map_ = PlasticMap(made.box, Fraction(_FARTHEST))
+    try:
+        map_.impact(enclosed((phases,), BITS))  # in whose times those at the ends are looked for
+        images = [sharp_values(map_, enclosed(((x, x),), BITS))[0].range for x in phases]
+    except Unproved as error:
+        raise Undecided(str(error)) from None
+    function = {"eta": texts(made.box.eta), "nu": texts(made.box.nu)}
+    witness = {"function": function, "points": texts(phases), "bits": str(BITS)}
+    name = made.add("slopes", witness)
     return Cell({"slopes": name, "domain": texts(phases)}, hull(images))
 
 

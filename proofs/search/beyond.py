@@ -36,19 +36,19 @@ def prove(request: Request, effort: int = EFFORT, seconds: float | Fraction = ma
     """Prove what the claims asked for rest on, as far as it goes: see `Budget`."""
     prover = request.prover()
     run = Run(prover, Budget(request.of.eta, effort, seconds))
-    found = Evidence(prover.steps, {claim: [] for claim in request.claims})
-    if too_fast(request.of, found, _SEARCHES):
-        return found
+    evidence = Evidence(prover.steps, {claim: [] for claim in request.claims})
+    if too_fast(request.of, evidence, _SEARCHES):
+        return evidence
     within = partial(run.budget.attempt, prover.undone)
-    return search_each(found, request.claims, _SEARCHES, request.tell, run, within=within)
+    return search_each(evidence, request.claims, _SEARCHES, request.tell, run, within=within)
 
 
-def too_fast(of: Parameters, found: Evidence, searches: Iterable[str]) -> bool:
+def too_fast(of: Parameters, evidence: Evidence, searches: Iterable[str]) -> bool:
     """Whether eta is too large for any search, which is noted at each claim that asks for one."""
     if of.eta <= FASTEST:
         return False
     note = f"for eta > {FASTEST} flights are not followed"
-    found.notes |= dict.fromkeys(found.proofs.keys() & set(searches), note)
+    evidence.notes |= dict.fromkeys(evidence.proofs.keys() & set(searches), note)
     return True
 
 
@@ -107,7 +107,7 @@ def _shares(run: Run) -> Proof:
     with suppress(*FAILED):
         never = prove_longest(run.prover)
     cells, impacts = run.budget.grid // 2, run.budget.impacts // 8
-    known = Partition(
+    partition = Partition(
         run.prover,
         arc,
         never,
@@ -118,7 +118,7 @@ def _shares(run: Run) -> Proof:
         spare=_SPARE,
         pieces=_PIECES,
     )
-    return [arc, known.prove(), *([] if never is None else [never])]
+    return [arc, partition.prove(), *([] if never is None else [never])]
 
 
 _SEARCHES: Mapping[str, tuple[str, Callable[[Run], Proof]]] = MappingProxyType(

@@ -119,10 +119,10 @@ def _captured(run: Run, orbit: Sequence[Seen]) -> tuple[str, Sequence[Range]]:
         raise Undecided(f"{len(orbit)} impacts after the separation no end of the motion is seen")
     for radius in _WIDE:
         with suppress(*FAILED), run.prover.undone():
-            name, found = _orbit(run.prover, cycle, radius)
-            return name, found.cells
-    name, found = _orbit(run.prover, cycle, _radius(cycle))
-    return name, found.cells
+            name, stable_orbit = _orbit(run.prover, cycle, radius)
+            return name, stable_orbit.cells
+    name, stable_orbit = _orbit(run.prover, cycle, _radius(cycle))
+    return name, stable_orbit.cells
 
 
 def _is_deep(phase: float, sets: Iterable[Range]) -> bool:
@@ -181,14 +181,14 @@ def stable(run: Run) -> Proof:
 
 def _cycles(run: Run) -> Iterator[list[Seen]]:
     """Yield stable orbits, about, each once: first those of (16)."""
-    known: list[float] = []
+    phases: list[float] = []
 
     def is_new(seen: Seen) -> bool:
-        away = (math.remainder(seen.phase - phase, math.tau) for phase in known)
+        away = (math.remainder(seen.phase - phase, math.tau) for phase in phases)
         return not any(abs(x) < _RADIUS for x in away)
 
     for point in _single_impacts(run):
-        known.append(point.phase)
+        phases.append(point.phase)
         yield [point]
     for k in range(run.budget.starts):
         start = math.tau * (k + 0.5) / run.budget.starts
@@ -199,7 +199,7 @@ def _cycles(run: Run) -> Iterator[list[Seen]]:
         else:
             cycle = stable_cycle(run.system, seen.image % math.tau, run.budget.farthest)
             if all(map(is_new, cycle)):
-                known += [each.phase for each in cycle]
+                phases += [each.phase for each in cycle]
                 yield from filter(None, [cycle])
 
 

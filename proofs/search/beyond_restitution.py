@@ -40,11 +40,13 @@ def prove(request: Request, effort: int = EFFORT, seconds: float | Fraction = ma
     """Prove what the claims asked for rest on, as far as it goes."""
     prover = ReboundProver(request.of, request.prover())
     budget = Budget(request.of.eta, effort, seconds)
-    found = Evidence(prover.steps, {claim: [] for claim in request.claims})
-    if not too_fast(request.of, found, _SEARCHES) and request.of.epsilon is not None:
+    evidence = Evidence(prover.steps, {claim: [] for claim in request.claims})
+    if not too_fast(request.of, evidence, _SEARCHES) and request.of.epsilon is not None:
         within = partial(budget.attempt, prover.attempt)
-        search_each(found, request.claims, _SEARCHES, request.tell, prover, budget, within=within)
-    return found
+        search_each(
+            evidence, request.claims, _SEARCHES, request.tell, prover, budget, within=within
+        )
+    return evidence
 
 
 def _chaos(prover: ReboundProver, budget: Budget) -> Proof:
@@ -107,11 +109,11 @@ def _chattering(prover: ReboundProver, epsilon: Fraction) -> tuple[str, Conclusi
     pushing, first = Pushing(arc.at, arc.phase[0]), around(arc, _AROUND)
     box, impacts = list(first), list[str]()
     while len(impacts) < _MOST_IMPACTS:
-        name, found = prover.state(at, tuple(box))
+        name, image = prover.state(at, tuple(box))
         impacts.append(name)
-        box = around_image(found)
+        box = around_image(image)
         with suppress(*FAILED):
-            state = landed(arc, (found.values[0], found.values[1]), BITS)
+            state = landed(arc, (image.values[0], image.values[1]), BITS)
             cell = pushing.settle((epsilon, epsilon), *state)
             made = witness(separation, first, [cell], impacts)
             name = prover.derive("superstable-motion", **made)

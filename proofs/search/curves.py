@@ -201,7 +201,7 @@ class Curves:
             )
         require_zero(formula, around, matrix)
         nu = self._amplitude(curve.n, curve.side, box)
-        found = Meeting(curve, other, box, nu, signs[0] < 0)
+        meeting = Meeting(curve, other, box, nu, signs[0] < 0)
         step = self._add(
             "grazing-meets",
             curve=name,
@@ -210,7 +210,7 @@ class Curves:
             box=witness,
             amplitude=texts(nu),
         )
-        self.meetings.append((step, found))
+        self.meetings.append((step, meeting))
 
 
 def _sign(curve: GrazingCurve, other: str, piece: Piece) -> int:
@@ -241,10 +241,10 @@ def prove(request: Request) -> Evidence:
     """Prove closed forms of folds and flips, and follow the curves of grazing."""
     formulas = Steps(request.digits)
     evidence = Evidence(formulas.steps)
-    for claim, stage, found in (("C1", "folds and flips", curves), ("C4", "sticking", sticking)):
+    for claim, stage, theorem in (("C1", "folds and flips", curves), ("C4", "sticking", sticking)):
         if request.asks(claim):
             request.tell(stage)
-            proved = [formulas.prove(need) for need in found.needs]
+            proved = [formulas.prove(need) for need in theorem.needs]
             evidence.proofs[claim] = [each for each in proved if each is not None]
     if request.asks("C2", "C3"):
         all_of_it = Curves(request.of.epsilon or Fraction(0), formulas.steps)

@@ -48,8 +48,8 @@ def enclose(formula: str, digits: int, **point: Fraction) -> Range:
     formulas = on_tape(trees.formula(formula))
     bits = digits * 4 + SPARE_BITS + sum(map(size, point.values()))
     inputs = [Interval(point.get(name, 0), precision=bits) for name in formulas.variables]
-    (found,) = values(formulas, inputs)
-    lower, upper = decimal_bounds(found.inf, found.sup, digits)
+    (value,) = values(formulas, inputs)
+    lower, upper = decimal_bounds(value.inf, value.sup, digits)
     return Fraction(lower), Fraction(upper)
 
 
@@ -87,8 +87,8 @@ class Steps:
             )
         except Undecided:
             return
-        found = Expressions(expressions, wanted.lemmas)
-        self._add(wanted, found, "formula-solution", solution_witness(found))
+        solution = Expressions(expressions, wanted.lemmas)
+        self._add(wanted, solution, "formula-solution", solution_witness(solution))
 
     def _value(self, asked: Asked) -> None:
         point = {variable.name: low for variable, (low, _) in asked.box}
@@ -99,15 +99,15 @@ class Steps:
             "tree": None,
             "bounds": texts(bounds),
         }
-        found = Value(asked.function, asked.box, bounds)
-        self._add(asked, found, "formula-value", witness)
+        value = Value(asked.function, asked.box, bounds)
+        self._add(asked, value, "formula-value", witness)
 
     def _add(
-        self, wanted: Lemma | Asked, found: Conclusion, rule: str, witness: dict[str, Any]
+        self, wanted: Lemma | Asked, conclusion: Conclusion, rule: str, witness: dict[str, Any]
     ) -> None:
         name = f"{rule.removeprefix('formula-')}-{len(self.steps) + 1}"
         self.steps[name] = {"rule": rule, "witness": witness}
-        self.names[wanted] = (name, found)
+        self.names[wanted] = (name, conclusion)
 
 
 def prove_rows(

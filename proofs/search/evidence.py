@@ -48,7 +48,7 @@ def floats_first(make: Callable[[bool], _Made]) -> _Made:
 
 
 def search_each(
-    found: Evidence,
+    evidence: Evidence,
     claims: Iterable[str],
     searches: Mapping[str, tuple[str, Callable[..., Proof]]],
     tell: Tell,
@@ -66,7 +66,7 @@ def search_each(
         tell(stage)
         try:
             with within():
-                found.proofs[claim] = search(*about)
+                evidence.proofs[claim] = search(*about)
         except FAILED as failure:
-            found.notes[claim] = str(failure)
-    return found
+            evidence.notes[claim] = str(failure)
+    return evidence

@@ -14,7 +14,7 @@ from intervals import Undecided
 from proofs.methods.extremes import extremes
 from proofs.motion.branch import Branch
 from proofs.motion.covering import bits_needed, cover_by, halves, steps_for
-from proofs.motion.digits import bits_for, to_digits
+from proofs.motion.digits import bits_for, phase_after, to_digits
 from proofs.motion.landing import separation, separation_phase
 from proofs.motion.system import System
 from proofs.motion.witness import (
@@ -30,7 +30,8 @@ from proofs.motion.witness import (
 from proofs.search.evidence import FAILED, Proved, floats_first
 from proofs.search.steps import Prover
 from proofs.trusted.equations import launch_acceleration
-from proofs.trusted.flights import Motion, phase_after
+from proofs.trusted.flights import Motion
+from proofs.trusted.kernel.enclose import enclosed
 from proofs.trusted.numbers import COVER_BITS, Range, hull
 from proofs.trusted.paper.s34_circle.landing import Separation
 
@@ -38,6 +39,7 @@ _NOT_CUT = (
     "the interval seems to contain a grazing phase, or to reach too near to where sticking begins"
 )
 _PIECES = 32  # twelve digits take a dozen, but next to the onset of sticking any number
+_ROOM = 30  # bits beyond those that are asked for
 _COARSE = Fraction(1, 2**12)  # the finest time step where only a set of images is wanted
 
 
@@ -115,19 +117,18 @@ def _sticks(prover: Prover, phases: Range) -> bool | None:
 
 
 def _at_point(prover: Prover, phases: Range) -> Image:
-    found = floats_first(
-        lambda floats: locate(
-            prover.flights(phases), horizon=prover.horizon, floats=floats
-        ).proved()
+    floats_first(  # or it says why there is none
+        lambda floats: locate(prover.flights(phases), horizon=prover.horizon, floats=floats)
     )
 
     def prove() -> Proved:
         return prover.claimed(prover.point(phases[0])[0])
 
     def at_precision(bits: int) -> Image:
-        motion, time = Branch([("", found)], bits).flight(*phases)
-        arrival = phase_after(phases[0], time, motion.bits)
-        return Image(time, arrival, motion.slope(time).range, sticking=False, prove=prove)
+        x = enclosed((phases,), bits + _ROOM)
+        time, slope = prover.impact_map.impact(x).range, prover.impact_map.jacobian(x)[0][0].range
+        arrival = phase_after(phases[0], time, bits + _ROOM)
+        return Image(time, arrival, slope, sticking=False, prove=prove)
 
     return to_digits(prover.digits, at_precision, lambda x: (x.flight, x.phase, x.slope))
 
@@ -136,15 +137,15 @@ def _after_sticking(prover: Prover, phases: Range, digits: int | None = None) ->
     zero = (Fraction(0), Fraction(0))
 
     def at_precision(bits: int) -> Image:
-        name, found = prover.seen_or_proved(partial(_separation, prover, bits))
-        arrival = phase_after(Fraction(0), found.arrival, bits)
-        dwell = _dwell(phases, found.phase, bits)
-        return Image(found.time, arrival, zero, True, dwell, prove=lambda: prover.claimed(name))
+        name, separated = prover.seen_or_proved(partial(_separation, prover, bits))
+        arrival = phase_after(Fraction(0), separated.arrival, bits)
+        dwell = _dwell(phases, separated.phase, bits)
+        return Image(separated.time, arrival, zero, True, dwell, prove=lambda: prover.claimed(name))
 
-    def bounds(found: Image) -> Iterable[Range]:
-        yield from (found.flight, found.phase)
-        if phases[0] == phases[1] and found.dwell is not None:  # else the dwell times differ
-            yield found.dwell
+    def bounds(image: Image) -> Iterable[Range]:
+        yield from (image.flight, image.phase)
+        if phases[0] == phases[1] and image.dwell is not None:  # else the dwell times differ
+            yield image.dwell
 
     return to_digits(digits or prover.digits, at_precision, bounds, final=(NoImpact,))
 
@@ -197,7 +198,7 @@ def _over_interval(prover: Prover, phases: Range) -> Image:
 
     return Image(
         (flights.minimum[0], flights.maximum[1]),
-        phase_after(Fraction(0), arrival, branch.bits + 30),
+        phase_after(Fraction(0), arrival, branch.bits + _ROOM),
         (slopes.minimum[0], slopes.maximum[1]),
         sticking=False,
         prove=prove,
@@ -209,19 +210,19 @@ def _possible(prover: Prover, phases: Range, reason: str, cuts: int = 5) -> Poss
     parts = [phases]
     for _ in range(cuts):
         parts = [half for part in parts for half in halves(part)]
-    found: list[tuple[Range, Range]] = []
+    pairs: list[tuple[Range, Range]] = []
     for part in parts:
         sticks = _sticks(prover, part)
         if sticks:
             rest = _after_sticking(prover, part, 12)
-            found.append((rest.flight, rest.phase))
+            pairs.append((rest.flight, rest.phase))
             continue
         first = part if sticks is False else _leaving(prover.system, part)
         flights = FlightBox.plastic(prover.at, first, separating=sticks is None)
         for low, high in _windows(flights, prover.horizon):
             arrival = phase_after(Fraction(0), (first[0] + low, first[1] + high), COVER_BITS)
-            found.append(((low, high), arrival))
-    return PossibleImages(_merged(found), reason)
+            pairs.append(((low, high), arrival))
+    return PossibleImages(_merged(pairs), reason)
 
 
 def _windows(flights: FlightBox, horizon: Fraction) -> tuple[Range, ...]:

@@ -11,7 +11,6 @@ from intervals import Interval, Undecided
 from intervals.rounding import float_down, float_up
 from proofs.methods.orbits import PeriodicPoint, periodic_points
 from proofs.methods.words import Words
-from proofs.motion.branch import Branch
 from proofs.motion.horseshoe_map import ImpactMap, turn
 from proofs.motion.system import System
 from proofs.motion.witness import HORIZON
@@ -20,6 +19,7 @@ from proofs.search.s31_horseshoe import prove
 from proofs.search.shifts import pairs, pieces
 from proofs.search.steps import Prover
 from proofs.trusted.flights import FirstImpact
+from proofs.trusted.kernel.enclose import enclosed
 from proofs.trusted.kernel.images import image_arc
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper.s31_horseshoe import horseshoes
@@ -65,7 +65,7 @@ def _full_shift(of: Parameters, left: Range, right: Range) -> ImpactMap:
     for domain, (_, found) in zip((left, right), steps, strict=True):
         around = Fraction(float_down(domain[0])), Fraction(float_up(domain[1]))
         impacts = prover.impacts(around)
-        time = Branch(impacts, prover.bits).flight(domain[0], domain[0])[1]
+        time = prover.impact_map.impact(enclosed((domain[:1] * 2,), prover.bits)).range
         whole = (Interval(*time) + domain[0] - Interval(*found.images[0])) / turn(53)
         count = round(whole.mid)
         if not (whole.contains(count) and whole.wid < 1):

@@ -28,8 +28,7 @@ from proofs.trusted.kernel.differential import Differential, differential_on
 from proofs.trusted.kernel.enclose import enclosed
 from proofs.trusted.kernel.firstzero import NoFirstZero
 from proofs.trusted.numbers import COVER_BITS, Range, bits_for, ceil_text, floor_text, hull
-from proofs.trusted.oscillator import Oscillator, flight
-from proofs.trusted.parameters import Place
+from proofs.trusted.oscillator import Oscillator
 
 Box = tuple[Range, Range]  # phases x velocities
 _PARTS = 128
@@ -70,27 +69,27 @@ def rebound(
     parts on which the first impact is one smooth function. Raises Impossible where a state may
     not exist, NoImpact where none follows up to the horizon, Undecided where nothing can be said.
     """
-    of = flight(((system.eta,) * 2, (system.nu,) * 2, (epsilon,) * 2), latest=horizon)
+    oscillator = Oscillator(((system.eta,) * 2, (system.nu,) * 2, (epsilon,) * 2), horizon)
     box = phases, velocities
-    _require_possible(of, box)
+    _require_possible(oscillator, box)
     if epsilon == 0:
         plastic = image(system, phases, digits=digits, horizon=horizon)
         if isinstance(plastic, Image) and plastic.sticking:
             return _after_sticking(system, plastic)
     if phases[0] == phases[1] and velocities[0] == velocities[1]:
-        return _at_point(of, box, digits)
-    return _over_box(of, box)
+        return _at_point(oscillator, box, digits)
+    return _over_box(oscillator, box)
 
 
-def _require_possible(of: Oscillator, box: Box) -> None:
+def _require_possible(oscillator: Oscillator, box: Box) -> None:
     """Raise Impossible unless gap' <= 0 before each impact: the mass comes from above.
 
     One state is looked at ever more closely; where its closing speed may be 0, Undecided says so.
     """
     for bits in (COVER_BITS, 4 * COVER_BITS, 16 * COVER_BITS):
-        eta, nu, phi, gamma = (Enclosure.of(*side, bits) for side in (*of.sides[:2], *box))
-        start = launch(of.side, eta, nu, phi)
-        speed = closing(start, gamma) * of.side
+        eta, nu, phi, gamma = (Enclosure.of(*side, bits) for side in (*oscillator.ranges[:2], *box))
+        start = launch(oscillator.formulas.side, eta, nu, phi)
+        speed = closing(start, gamma) * oscillator.formulas.side
         if speed.lo > 0:
             return
         if speed.hi < 0:
@@ -99,7 +98,7 @@ def _require_possible(of: Oscillator, box: Box) -> None:
         if all(low == high for low, high in box):
             raise Undecided("the closing speed is 0, or too close to it to tell its sign")
     low, high = (-start.rate / start.eta).range
-    if of.side < 0:
+    if oscillator.formulas.side < 0:
         bound = f"gamma is at most {floor_text(low)}"
     else:
         bound = f"gamma is at least {ceil_text(high)}"
@@ -117,43 +116,43 @@ class NextState(NamedTuple):
     flight: Range
 
 
-def next_state(of: Oscillator, box: Box, bits: int) -> NextState:
+def next_state(oscillator: Oscillator, box: Box, bits: int) -> NextState:
     """Enclose F and DF over a box of states; NoImpact where none follows up to the horizon."""
     try:
-        time = of.impact(enclosed(box, bits)).range
+        time = oscillator.impact(enclosed(box, bits)).range
         turns = (box[0][0] + time[0]) // whole_turns(1, bits)[0]
-        return NextState(differential_on(of, box, (turns,), bits), bits, time)
+        return NextState(differential_on(oscillator, box, (turns,), bits), bits, time)
     except NoFirstZero as failure:
         raise NoImpact(str(failure)) from None
 
 
-def _at_point(of: Oscillator, box: Box, digits: int) -> Rebound:
-    found = to_digits(
+def _at_point(oscillator: Oscillator, box: Box, digits: int) -> Rebound:
+    state = to_digits(
         digits,
-        lambda bits: next_state(of, box, bits + _ROOM),
+        lambda bits: next_state(oscillator, box, bits + _ROOM),
         lambda x: (x.flight, *x.proved.values, *sum(x.proved.matrix, ())),
         final=(NoImpact,),
     )
-    return _joined(of, [found])
+    return _joined(oscillator, [state])
 
 
-def _joined(of: Oscillator, found: Sequence[NextState]) -> Rebound:
+def _joined(oscillator: Oscillator, parts: Sequence[NextState]) -> Rebound:
     """Return what holds for all parts of a box; phases are less the turns of the first."""
-    (turns, *_) = (each.proved.turns[0] for each in found)
+    (turns, *_) = (each.proved.turns[0] for each in parts)
     return Rebound(
-        hull([each.flight for each in found]),
-        hull([lifted(x.values[0], x.turns[0] - turns, 64) for x, *_ in found])
-        if len(found) > 1
-        else found[0].proved.values[0],
-        hull([each.proved.values[1] for each in found]),
-        tuple(map(hull, zip(*(sum(each.proved.matrix, ()) for each in found), strict=True))),
-        prove=partial(_proved, of, found),
+        hull([each.flight for each in parts]),
+        hull([lifted(x.values[0], x.turns[0] - turns, 64) for x, *_ in parts])
+        if len(parts) > 1
+        else parts[0].proved.values[0],
+        hull([each.proved.values[1] for each in parts]),
+        tuple(map(hull, zip(*(sum(each.proved.matrix, ()) for each in parts), strict=True))),
+        prove=partial(_proved, oscillator, parts),
     )
 
 
-def _proved(of: Oscillator, parts: Sequence[NextState]) -> Proved:
+def _proved(oscillator: Oscillator, parts: Sequence[NextState]) -> Proved:
     """Prove what F does on each part (rule differential)."""
-    at, steps = Place(*of.sides), dict[str, dict[str, Any]]()
+    at, steps = oscillator.at, dict[str, dict[str, Any]]()
     for number, (part, bits, _) in enumerate(parts, 1):
         witness = {
             "function": function_of(at),
@@ -176,21 +175,21 @@ def _after_sticking(system: System, plastic: Image) -> Rebound:
     return Rebound(*arrived, still, sticking=True, dwell=dwell, prove=prove)
 
 
-def _over_box(of: Oscillator, box: Box) -> Rebound:
+def _over_box(oscillator: Oscillator, box: Box) -> Rebound:
     def decide(part: Box) -> NextState | None:
         try:
-            return next_state(of, part, COVER_BITS)
+            return next_state(oscillator, part, COVER_BITS)
         except Unproved:
             return None
 
     try:
-        found = [one for _, one in cover([box], decide, _split, limit=_PARTS)]
+        states = [state for _, state in cover([box], decide, _split, limit=_PARTS)]
     except PartsExhausted:
         raise Undecided(
             f"{_PARTS} parts of the box do not suffice: some of its flights graze or stick, "
             "so that F jumps"
         ) from None
-    return _joined(of, found)
+    return _joined(oscillator, states)
 
 
 def _split(part: Box) -> tuple[Box, Box]:

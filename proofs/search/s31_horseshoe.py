@@ -22,6 +22,7 @@ from proofs.search.repair import grid, nearest_sets
 from proofs.search.steps import Prover
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.differential import Differential
 from proofs.trusted.kernel.laps import SlopeRange
 from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Phase
@@ -101,7 +102,7 @@ class _Run:
     def _verdict(self, claim: str, known: Sequence[tuple[str, Conclusion]]) -> Verdict:
         return _DECIDE[claim](self.of, [conclusion for _, conclusion in known]).verdict
 
-    def witness(self, claim: str) -> tuple[str, Impact] | None:
+    def witness(self, claim: str) -> tuple[str, Differential] | None:
         """Look for one phase that refutes a claim, by candidates, and prove it."""
         for phase in islice(self.suspects(claim), _TRIES):
             proved = self.attempt("witness", partial(self.prover.point, phase))

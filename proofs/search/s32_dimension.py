@@ -86,11 +86,11 @@ class _Run:
         sets = hull, tuple(domains), words
         if sets not in self.inverses:
             self.inverses[sets] = self._inverses(hull, letters, words)
-        inverses, known, arcs = self.inverses[sets]
+        inverses, remembered, arcs = self.inverses[sets]
         self.tell("a test function for the dimension")
-        trial, by = candidate(known, inverses.ellipse, arcs, self.digits, exponent)
+        trial, by = candidate(remembered, inverses.ellipse, arcs, self.digits, exponent)
         self.tell("the operator's inequality, on all of the interval")
-        found = repeller(inverses, growth(known, trial, by), by.bits)
+        conclusion = repeller(inverses, growth(remembered, trial, by), by.bits)
         scale = lcm(*(c.denominator for c in trial.coefficients))
         witness = {
             "branches": list(names),
@@ -106,7 +106,7 @@ class _Run:
             "test": [str(c * scale) for c in trial.coefficients],
             "bits": str(by.bits),
         }
-        return self.prover.record("dimension", witness, found), found
+        return self.prover.record("dimension", witness, conclusion), conclusion
 
     def shift(
         self, shift: StayingSet, words: tuple[str, ...], exponent: Fraction | None
@@ -130,12 +130,12 @@ class _Run:
         branches = [InverseBranch(self.prover.system, letter.domain) for letter in letters]
 
         def along(path: Sequence[complex]) -> dict[str, Images]:
-            known: dict[str, Images] = {"": [(x, 1) for x in path]}
+            values: dict[str, Images] = {"": [(x, 1) for x in path]}
             for word in ends:
-                before = known[word[1:]]
-                found = branches[int(word[0])].along([x for x, _ in before])
-                known[word] = [(y, d * e) for (y, d), (_, e) in zip(found, before, strict=True)]
-            return known
+                before = values[word[1:]]
+                pairs = branches[int(word[0])].along([x for x, _ in before])
+                values[word] = [(y, d * e) for (y, d), (_, e) in zip(pairs, before, strict=True)]
+            return values
 
         def of_words(path: Sequence[complex]) -> list[Images]:
             known = along(path)
@@ -155,11 +155,11 @@ def _with_radii(branches: Inverses, arcs: int) -> tuple[Inverses, Remembered, in
     rough, parts = replace(branches, found={}), branches.ellipse.arcs(arcs)
     on_boundary(rough, parts[::_SOME])
     radii = {word: round(_ROOM * each, 12) for word, each in rough.found.items()}
-    found = replace(branches, radii=radii, found={})
-    known = Remembered(found)
-    on_boundary(known, parts)
-    found.require_near()
-    return found, known, arcs
+    wide = replace(branches, radii=radii, found={})
+    remembered = Remembered(wide)
+    on_boundary(remembered, parts)
+    wide.require_near()
+    return wide, remembered, arcs
 
 
 def _path(images: Images, rho: float) -> tuple[Fraction, ...]:
@@ -168,18 +168,18 @@ def _path(images: Images, rho: float) -> tuple[Fraction, ...]:
     On the ellipse T_k = (w^k + w^-k) / 2: they are those of its Fourier series.
     """
     values = [y for y, _ in images[-POINTS:]]
-    steps, found = len(values) - 1, list[float]()
+    steps, coefficients = len(values) - 1, list[float]()
     weights = [0.5, *[1.0] * (steps - 1), 0.5]
     for k in range(_MOST_TERMS):
         turned = (
             weight * (y * cmath.exp(-1j * math.pi * k * j / steps)).real
             for j, (weight, y) in enumerate(zip(weights, values, strict=True))
         )
-        found.append((2 if k else 1) * sum(turned) / steps / rho**k)
-    sizes = [abs(c) * rho**k for k, c in enumerate(found)]
-    while len(found) > 2 and sizes[len(found) - 1] < _TAIL * max(sizes[1:]):
-        del found[-1]
-    return tuple(round(Fraction(c), 12) for c in found)
+        coefficients.append((2 if k else 1) * sum(turned) / steps / rho**k)
+    sizes = [abs(c) * rho**k for k, c in enumerate(coefficients)]
+    while len(coefficients) > 2 and sizes[len(coefficients) - 1] < _TAIL * max(sizes[1:]):
+        del coefficients[-1]
+    return tuple(round(Fraction(c), 12) for c in coefficients)
 
 
 @proving
@@ -202,8 +202,8 @@ def _staying(run: _Run) -> Proof:
     if around:
         staying = invariant_set(of.interval, Found(of, [each for _, each in around]))
         base = staying.base
-        whole = base.interval, base.cells, FULL
-        proof += run.attempt(partial(run.repeller, *whole))
+        full = base.interval, base.cells, FULL
+        proof += run.attempt(partial(run.repeller, *full))
         if staying.shift.factors == "000":
             inner = Phases(*of.interval), (Phases(*of.left), Phases(*of.right)), WITHOUT_000
             proof += run.attempt(partial(run.repeller, *inner))

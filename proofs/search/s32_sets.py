@@ -47,8 +47,8 @@ def _staying_in(sets: Parameters, of: Parameters, prover: Prover) -> Proof:
     slopes: dict[str, SlopeRange] = {}
     for domain in (sets.left, sets.right):
         inside = {point for point in extra if domain[0] < point < domain[1]}
-        name, found = prover.slopes(sorted({*domain, *inside}))
-        slopes[name] = found
+        name, slope_range = prover.slopes(sorted({*domain, *inside}))
+        slopes[name] = slope_range
     gap = prover.avoids(sets.gap, sets.interval)
     base, proved = prover.horseshoe(list(slopes.items()), gap, sets)
     proof: Proof = [(base, proved)]
@@ -66,10 +66,10 @@ def _nearby(sets: Parameters, start: Fraction) -> Iterator[Fraction]:
         if not any(low < phase < high for low, high in (sets.left, sets.right)):
             return
         yield from {phase - reach, phase + reach}
-        found = next_impact(system, float(phase))
-        if found is None:
+        impact = next_impact(system, float(phase))
+        if impact is None:
             return
-        phase = round(Fraction(found[1]) / _NEARBY) * _NEARBY
+        phase = round(Fraction(impact[1]) / _NEARBY) * _NEARBY
         reach = _NEARBY + round(reach * 2 * sets.slopes[1] / _NEARBY) * _NEARBY
 
 

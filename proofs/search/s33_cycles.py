@@ -19,7 +19,7 @@ from proofs.trusted.kernel.enclose import Matrix, enclosed, point_box
 from proofs.trusted.kernel.rates import size
 from proofs.trusted.kernel.stable import StableCycle, follow
 from proofs.trusted.numbers import TURN, Range
-from proofs.trusted.oscillator import flight
+from proofs.trusted.oscillator import Oscillator
 from proofs.trusted.parameters import Place
 
 _IMPACTS = 200  # until simulated motions are near an orbit
@@ -63,7 +63,7 @@ def prove_cycle(
     s how far F^n leads from the state, c > 1 so that c |D| still contracts: c (s + |D| r) < r.
     n is the period times `rounds`: more than one where F turns states around the orbit.
     """
-    map_, count = flight(at.sides), period * rounds
+    map_, count = Oscillator(at.sides), period * rounds
     centre = enclosed(point_box(state), _BITS)
     (*_, end), product = follow(map_, centre, count)
     ((p, q), (r, s)), root = _sizes(product)

@@ -28,7 +28,7 @@ from proofs.trusted.kernel.differential import BITS, Differential, differential_
 from proofs.trusted.kernel.rates import PLAIN, Cone
 from proofs.trusted.kernel.rectangles import Rectangle
 from proofs.trusted.numbers import Range
-from proofs.trusted.oscillator import flight
+from proofs.trusted.oscillator import Oscillator
 from proofs.trusted.paper.s33_restitution.rectangles import ALL
 from proofs.trusted.parameters import Parameters, Place
 
@@ -70,10 +70,10 @@ class ReboundProver:
 
     def get(self, name: str, kind: type[C]) -> C:
         """Return a conclusion by its name."""
-        found = self.known[name]
-        if not isinstance(found, kind):
+        conclusion = self.known[name]
+        if not isinstance(conclusion, kind):
             raise TypeError(f"{name} is no {kind.__name__}")
-        return found
+        return conclusion
 
     @contextmanager
     def attempt(self) -> Iterator[None]:
@@ -147,10 +147,10 @@ class ReboundProver:
         """Prove that F maps both rectangles across both."""
         images = image_phases(at, self.velocities)
         for ends in sets:
-            known = [image for image in map(images, ends) if image is not None]
-            low, high = min(known, default=(0, 0)), max(known, default=(0, 0))  # f may fall
+            seen = [image for image in map(images, ends) if image is not None]
+            low, high = min(seen, default=(0, 0)), max(seen, default=(0, 0))  # f may fall
             short = float(max(low[1] - sets[0][0], sets[1][1] - high[0]))
-            if len(known) < 2 or short >= 0:
+            if len(seen) < 2 or short >= 0:
                 raise Unproved(f"an edge seems to fall short by {short:.6g}, or to stick")
         with self.attempt():
             return self.across(self.pair(at, sets, cuts), ALL, PLAIN)
@@ -270,7 +270,7 @@ def turns_of(at: Place, box: Box) -> str:
 
 def _is_smooth(at: Place, box: Box) -> bool:
     try:
-        differential_on(flight(at.sides), box, (0,))
+        differential_on(Oscillator(at.sides), box, (0,))
     except FAILED:
         return False
     return True

@@ -109,8 +109,8 @@ class Partition:
             raise Undecided("no branch of f is proved between phases that stick at the next impact")
         pieces = _Pieces(self.system, branches, between, float(self.line[0]))
         mesh = self._mesh(pieces, between)
-        found = mesh.grow(self.goal, self.most, self.impacts)
-        cuts = mesh.leaning(found.absorbed)
+        growth = mesh.grow(self.goal, self.most, self.impacts)
+        cuts = mesh.leaning(growth.absorbed)
         self.entries["cells"] = []
         for index, branch in enumerate(branches.branches):
             at = np.flatnonzero(cuts.branch == index)
@@ -175,10 +175,10 @@ class Partition:
         """
         rounded = np.round(cuts.phases / float(UNIT)) * float(UNIT)
         images, falls = polished(self.system, rounded, cuts.images, cuts.turns)
-        whole, times = 2 * middle(pi(BITS)), []
+        turn, times = 2 * middle(pi(BITS)), []
         phases = [Fraction(x) for x in rounded.tolist()]
         for x, y, n, fall in zip(phases, images.tolist(), cuts.turns.tolist(), falls, strict=True):
-            time = Fraction(y) - x + n * whole
+            time = Fraction(y) - x + n * turn
             if abs(fall) < slow:
                 time = zero(Motion(self.prover.at, (x, x), BITS), time, 0)
             times.append(short(time, 48) - BRACKET / 2)
@@ -187,14 +187,14 @@ class Partition:
     def _conclude(self) -> tuple[str, Absorption]:
         """Follow all cells, by the theorem of the rule, and record the step."""
         name, never = self.never or (None, None)
-        found = followed(self.arc[1], self.lands, never, self.cells, self.impacts)
+        absorption = followed(self.arc[1], self.lands, never, self.cells, self.impacts)
         witness = {
             "separation": self.arc[0],
             "never": [] if name is None else [name],
             **self.entries,
             "impacts": str(self.impacts),
         }
-        return self.prover.record("absorption", witness, found), found
+        return self.prover.record("absorption", witness, absorption), absorption
 
 
 def _inside(low: Fraction, high: Fraction) -> tuple[float, float]:

@@ -77,11 +77,11 @@ def prove_entropy(
     """
     if not -1 < prover.system.nu < 0 or prover.system.eta > FASTEST:
         return []
-    found = Branches(prover.system, Candidates(prover.system, most_turns))
-    for low, high in found.candidates.runs(*_DOMAIN, _GRID):
+    branches = Branches(prover.system, Candidates(prover.system, most_turns))
+    for low, high in branches.candidates.runs(*_DOMAIN, _GRID):
         if high - low > _NARROWEST:
-            found.prove(prover, low, high)
-    return prove_covering(prover, found, depth)
+            branches.prove(prover, low, high)
+    return prove_covering(prover, branches, depth)
 
 
 def prove_covering(
@@ -163,10 +163,10 @@ class Branches:
 
     def impact(self, phase: float) -> Candidate:
         """Return about where the first impact is; Undecided if there is none."""
-        found = self.candidates.impact(phase)
-        if found is None:
+        candidate = self.candidates.impact(phase)
+        if candidate is None:
             raise Undecided("no impact in floating point")
-        return found
+        return candidate
 
     def on(self, phase: Fraction) -> int:
         """Return the number of the branch that a phase lies on."""

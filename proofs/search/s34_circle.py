@@ -75,10 +75,10 @@ class _Run:
             return None
         self.tell(stage)
         with suppress(*FAILED), self.prover.undone():
-            found = make()
+            step = make()
             for proof in proofs:
-                proof.append(found)
-            return found
+                proof.append(step)
+            return step
         return None
 
 

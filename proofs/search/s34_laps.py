@@ -60,33 +60,33 @@ class Laps:
         landing = Partition(prover, arc)
         low, high = map(float, landing.prove_lands())
         never, silent = prove_longest(prover)
-        found = Branches(system, Candidates(system, system.eta.denominator - 1))
-        for ends in found.candidates.runs(low - _OUTSIDE, high + _OUTSIDE, _GRID):
-            found.prove(prover, *ends)
-        parts: list[Branch | NeverImpacts] = [*found.branches, silent]
+        proved = Branches(system, Candidates(system, system.eta.denominator - 1))
+        for ends in proved.candidates.runs(low - _OUTSIDE, high + _OUTSIDE, _GRID):
+            proved.prove(prover, *ends)
+        parts: list[Branch | NeverImpacts] = [*proved.branches, silent]
         between = pairwise(sorted(parts, key=lambda each: each.phases))
-        grazes = [prove_grazing(prover, found, *pair) for pair in between]
+        grazes = [prove_grazing(prover, proved, *pair) for pair in between]
         witness = {
             "separation": arc[0],
             "lands": landing.entries["lands"],
             "branches": [
                 {"branch": name, "after": str(after_reversal(system, branch))}
-                for name, branch in zip(found.names, found.branches, strict=True)
+                for name, branch in zip(proved.names, proved.branches, strict=True)
             ],
             "grazings": [name for name, _ in grazes],
             "never": [never],
         }
-        return cls(prover, found, *prover.derive("pieces", witness))
+        return cls(prover, proved, *prover.derive("pieces", witness))
 
     def bound(self, lower: tuple[str, EntropyBound], depth: int) -> tuple[str, EntropyRange]:
         """Record the step `itinerary-graph`, the growth rounded up."""
         region = self.pieces.region
-        known = Images(self.found)
+        proved = Images(self.found)
 
         @cache
         def images(state: Range) -> list[Range]:
-            found = (piece.image(state, known) for piece in self.pieces.monotone)
-            cut = ((max(x[0], region[0]), min(x[1], region[1])) for x in found if x is not None)
+            parts = (piece.image(state, proved) for piece in self.pieces.monotone)
+            cut = ((max(x[0], region[0]), min(x[1], region[1])) for x in parts if x is not None)
             return [x for x in cut if x[0] <= x[1]]
 
         states = outer_tower((region[0], region[1]), images, depth, _PLACES)
@@ -95,7 +95,7 @@ class Laps:
         witness = {
             "pieces": self.name,
             "lower": lower[0],
-            "images": known.witness(),
+            "images": proved.witness(),
             "states": [texts(state) for state in ceiling.states],
             "weights": list(map(str, ceiling.vector)),
             "growth": str(growth),
@@ -129,21 +129,21 @@ class Images:
 
 
 def prove_grazing(
-    prover: Prover, found: Branches, left: Branch | NeverImpacts, right: Branch | NeverImpacts
+    prover: Prover, branches: Branches, left: Branch | NeverImpacts, right: Branch | NeverImpacts
 ) -> tuple[str, Grazing]:
     """Prove that f jumps once, at a graze, between two neighbours (rule grazing)."""
     phases, never = Phases(left.phases[1], right.phases[0]), prover.system.eta.denominator
-    one, two = (x.turn if isinstance(x, Branch) else never for x in (left, right))
-    turns = min(one, two), max(one, two)
-    near, far = phases if one < two else phases[::-1]
-    width, impact = phases[1] - phases[0], found.impact(float(near))
+    before_turn, two = (x.turn if isinstance(x, Branch) else never for x in (left, right))
+    turns = min(before_turn, two), max(before_turn, two)
+    near, far = phases if before_turn < two else phases[::-1]
+    width, impact = phases[1] - phases[0], branches.impact(float(near))
     time = zero(flight(prover, near), Fraction(impact.time), 1)
     around = 8 * width + _SPARE
     before = (time - Fraction(impact.time)) * 3 / 2 + around
     times = [time + x for x in (-before, -around, around, rise(prover.system, time))]
     landing = None
     if turns[1] != never:
-        later = found.impact(float(far))
+        later = branches.impact(float(far))
         spare = 2 * (1 + Fraction(abs(later.slope))) * width + _SPARE
         arrival = zero(flight(prover, far), Fraction(later.time), 0)
         landing = arrival - spare, arrival + spare

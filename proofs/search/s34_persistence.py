@@ -39,7 +39,7 @@ _TRIES = 20  # simulated motions
 @proving
 def prove(request: Request) -> Evidence:
     """Prove what the claims asked for rest on; G8 is an observation: it is simulated."""
-    prover, found = request.prover(), Evidence()
+    prover, evidence = request.prover(), Evidence()
     if request.asks("G7", "G12", "G15", "G16"):
         with suppress(*FAILED):  # what is not proved the claims do not say
             request.tell(
@@ -47,10 +47,10 @@ def prove(request: Request) -> Evidence:
             )
             motion = superstable_motion(prover)
             proof: Proof = [motion]
-            found.proofs = dict.fromkeys({"G7", "G12"}.intersection(request.claims), proof)
+            evidence.proofs = dict.fromkeys({"G7", "G12"}.intersection(request.claims), proof)
             if request.asks("G15"):
                 request.tell("where bounces do not come to an end any more")
-                found.proofs["G15"] = [*proof, *border(prover, motion)]
+                evidence.proofs["G15"] = [*proof, *border(prover, motion)]
             if request.asks("G7", "G12", "G16"):
                 request.tell("another stable orbit")
                 rebounds = ReboundProver(request.of, prover)
@@ -58,13 +58,13 @@ def prove(request: Request) -> Evidence:
                 if request.asks("G16"):
                     request.tell("the same orbit for other epsilon")
                     cycles = [each for _, other in others for each in branch(rebounds, other)]
-                    found.proofs["G16"] = [*proof, *cycles]
+                    evidence.proofs["G16"] = [*proof, *cycles]
                 proof += others
     if request.asks("G8"):
         request.tell("simulated motions")
-        found.notes["G8"] = observed(transients(prover.system))
-    found.steps = prover.steps
-    return found
+        evidence.notes["G8"] = observed(transients(prover.system))
+    evidence.steps = prover.steps
+    return evidence
 
 
 def observed(rows: Sequence[Summary]) -> str:

@@ -9,15 +9,15 @@ from fractions import Fraction
 from itertools import pairwise
 
 from intervals import Undecided
-from proofs.motion.brackets import impact_time, middle
+from proofs.motion.brackets import middle
 from proofs.motion.candidate import next_impact
-from proofs.motion.witness import locate
+from proofs.motion.digits import phase_after
 from proofs.search.evidence import FAILED, Proof
 from proofs.search.steps import Prover
-from proofs.trusted.flights import Motion, phase_after
+from proofs.trusted.kernel.enclose import enclosed
 from proofs.trusted.kernel.laps import SlopeRange
 from proofs.trusted.kernel.staying import StayingSet
-from proofs.trusted.numbers import Range, bits_for, within
+from proofs.trusted.numbers import Range, within
 
 _FINE = Fraction(1, 1000)
 _COARSE = Fraction(1, 100)
@@ -46,8 +46,8 @@ class Sketcher:
         """Return about f(phase)."""
         if phase not in self._known:
             self._known[phase] = next_impact(self.prover.system, float(phase))
-        found = self._known[phase]
-        return None if found is None else found[1]
+        impact = self._known[phase]
+        return None if impact is None else impact[1]
 
     def sketch(self, interval: Range, unit: Fraction) -> Sketch:
         """Return the runs of multiples of `unit` that f leaves in the interval, one wider."""
@@ -70,8 +70,8 @@ class Sketcher:
         """Whether f jumps between two neighbouring phases: its flight times are far apart."""
         if not 0 < i < len(grid):
             return True
-        one, two = (self._known.get(x) for x in (grid[i - 1], grid[i]))
-        return one is None or two is None or abs(one[0] - two[0]) > 1
+        left, right = (self._known.get(x) for x in (grid[i - 1], grid[i]))
+        return left is None or right is None or abs(left[0] - right[0]) > 1
 
     def _wider(self, grid: Sequence[Fraction], i: int, way: int) -> Fraction:
         """Return the next phase on, if it is on the same branch."""
@@ -102,9 +102,9 @@ class Sketcher:
 
     def full_shifts(self, printed: Range, around: Range) -> list[Sketch]:
         """Return what looks like full shifts on two and three symbols, around both intervals."""
-        whole = min(printed[0], around[0]), max(printed[1], around[1])
-        found = self.full_shift(printed, 2), self.full_shift(whole, 3)
-        return [one for one in found if one is not None]
+        widest = min(printed[0], around[0]), max(printed[1], around[1])
+        sketches = self.full_shift(printed, 2), self.full_shift(widest, 3)
+        return [each for each in sketches if each is not None]
 
     def full_shift(self, interval: Range, symbols: int) -> Sketch | None:
         """Return the least widening of an interval that looks like a full shift."""
@@ -112,9 +112,9 @@ class Sketcher:
             for below in range(max(0, extra - _WIDEST), min(extra, _WIDEST) + 1):
                 low = interval[0] - below * _COARSE
                 high = interval[1] + (extra - below) * _COARSE
-                found = self.sketch((low, high), _COARSE)
-                if len(found.pieces) == symbols and all(map(self._over(low, high), found.pieces)):
-                    return found
+                seen = self.sketch((low, high), _COARSE)
+                if len(seen.pieces) == symbols and all(map(self._over(low, high), seen.pieces)):
+                    return seen
         return None
 
     def _over(self, low: Fraction, high: Fraction) -> Callable[[Sequence[Fraction]], bool]:
@@ -135,23 +135,23 @@ def prove_staying(prover: Prover, printed: Range, around: Range) -> Proof:
     few = sketcher.refined(sketcher.sketch(printed, _FINE))
     shifts = sketcher.full_shifts(printed, around)
     proofs = Pieces(prover, [few, *shifts])
-    found: Proof = []
+    proof: Proof = []
     orbits: list[tuple[Range, ...]] = []
     with suppress(*FAILED):
         name, kept = proofs.prove(few)
-        found.append((name, kept))
+        proof.append((name, kept))
         orbits += filter(None, [kept.orbit])
     for name, shift in _shifts(proofs, shifts):
-        found.append((name, shift))
+        proof.append((name, shift))
         orbits += [(shift.cells[0],), (shift.cells[-1],)]
-    known: list[tuple[Range, ...]] = []
+    brackets: list[tuple[Range, ...]] = []
     for cells in orbits:
-        if not any(len(x) == len(cells) and all(map(within, x, cells)) for x in known):
+        if not any(len(x) == len(cells) and all(map(within, x, cells)) for x in brackets):
             with suppress(*FAILED):
                 name, kept = periodic_orbit(prover, cells)
-                found.append((name, kept))
-                known.append(kept.orbit)
-    return found
+                proof.append((name, kept))
+                brackets.append(kept.orbit)
+    return proof
 
 
 def prove_shift(prover: Prover, around: Range, symbols: int) -> tuple[str, StayingSet]:
@@ -171,13 +171,13 @@ def prove_full_shifts(
 
 
 def _shifts(proofs: Pieces, sketches: Sequence[Sketch]) -> list[tuple[str, StayingSet]]:
-    found = []
+    proof = []
     for sketch in sketches:
         with suppress(*FAILED):
             name, kept = proofs.prove(sketch)
             if kept.whole:
-                found.append((name, kept))
-    return found
+                proof.append((name, kept))
+    return proof
 
 
 @dataclass
@@ -246,8 +246,6 @@ def _newton(prover: Prover, cells: Sequence[Range], accuracy: Fraction) -> Fract
 
 def _value(prover: Prover, phase: Fraction) -> tuple[Fraction, Fraction]:
     """Return about (f(phase), f'(phase))."""
-    launch = prover.flights((phase, phase))
-    found = locate(launch, horizon=prover.horizon)
-    time = impact_time(launch, found.windows[0], prover.bits)
-    slope = Motion(prover.at, (phase, phase), bits_for(time)).slope(time)
-    return phase_after(phase, time, prover.bits)[0], middle(slope)
+    x = enclosed(((phase, phase),), prover.bits)
+    time = prover.impact_map.impact(x).range
+    return phase_after(phase, time, prover.bits)[0], middle(prover.impact_map.jacobian(x)[0][0])

@@ -157,8 +157,8 @@ class _Cutting:
 
 def prove_cycles(laps: Laps, grown: tuple[str, Expansion]) -> tuple[str, Cycles]:
     """Prove all periodic orbits up to a period (rule cycles)."""
-    known, points = Images(laps.found), Images(laps.found)
-    outer = Outer(grown[1], known)
+    images, points = Images(laps.found), Images(laps.found)
+    outer = Outer(grown[1], images)
     alive = [
         word
         for length in range(1, _LONGEST + 1)
@@ -177,7 +177,7 @@ def prove_cycles(laps: Laps, grown: tuple[str, Expansion]) -> tuple[str, Cycles]
         "orbits": [[points.bracket(x) for x in orbit] for orbit in orbits],
         "radius": str(_RADIUS),
         "longest": str(_LONGEST),
-        "images": known.witness(),
+        "images": images.witness(),
     }
     return laps.prover.derive("cycles", witness)
 
@@ -201,11 +201,11 @@ def _cycle(laps: Laps, branches: Sequence[Branch]) -> list[Fraction]:
 # -- square roots ----------------------------------------------------------------------------------
 
 
-def prove_roots(whole: _Whole) -> Proof:
+def prove_roots(shared: _Whole) -> Proof:
     """Prove grazes narrowly, and the pieces between them."""
-    roots = prove_grazes(whole.prover)
+    roots = prove_grazes(shared.prover)
     with suppress(*FAILED):
-        roots.append((whole.laps.name, whole.laps.pieces))
+        roots.append((shared.laps.name, shared.laps.pieces))
     return roots
 
 
@@ -222,11 +222,11 @@ def _prove_root(prover: Prover, candidates: Candidates, end: float) -> tuple[str
     runs = candidates.runs(end - _BESIDE, end + _BESIDE, _ROOT_GRID)
     ends = [(low, high) for (_, low), (high, _) in pairwise(runs)]
     seen = {low: (candidates.impact(low), candidates.impact(high)) for low, high in ends}
-    jumps = [(one, two, low) for low, (one, two) in seen.items() if one and two]
+    jumps = [(left, right, low) for low, (left, right) in seen.items() if left and right]
     if not jumps:
         raise Undecided("no graze is seen")
-    one, two, low = min(jumps, key=lambda jump: min(jump[0].turn, jump[1].turn))
-    first, later = (one, two) if one.turn < two.turn else (two, one)
+    left, right, low = min(jumps, key=lambda jump: min(jump[0].turn, jump[1].turn))
+    first, later = (left, right) if left.turn < right.turn else (right, left)
     phase, time = _graze(prover, Fraction(low), Fraction(first.time))
     arrival = zero(flight(prover, phase), Fraction(later.time), 0)
     unit, centre = Fraction(1, 10**_ROOT_PLACES), round(phase, _ROOT_PLACES)
@@ -251,10 +251,10 @@ def _graze(prover: Prover, phase: Fraction, time: Fraction) -> tuple[Fraction, F
     return phase, time
 
 
-def prove_all_orbits(whole: _Whole) -> Proof:
+def prove_all_orbits(shared: _Whole) -> Proof:
     """Prove the expansion, and all periodic orbits up to a period."""
-    grown = prove_expansion(whole.laps)
-    return [whole.range, grown, prove_cycles(whole.laps, grown)]
+    grown = prove_expansion(shared.laps)
+    return [shared.range, grown, prove_cycles(shared.laps, grown)]
 
 
 _SEARCHES: Mapping[str, tuple[str, Callable[[_Whole], Proof]]] = MappingProxyType(

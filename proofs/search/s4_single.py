@@ -45,22 +45,22 @@ class Single:
         return self.prover.derive(rule, witness)[0]
 
     def solution(
-        self, system: System, of: SingleImpact, early: bool = False, first: bool = False
+        self, system: System, orbit: SingleImpact, early: bool = False, first: bool = False
     ) -> str:
         """Record a solution of (16), with an earlier time at which the gap is < 0 if asked for.
 
         first: or with its first impact, n periods later, at the parameters of the certificate.
         """
-        phase = bracket(system, of.n, of.phase, self.prover.bits)
+        phase = bracket(system, orbit.n, orbit.phase, self.prover.bits)
         motion = Motion(system.place, phase, self.prover.bits + 60)
         return self._derive(
             "single-solution",
             eta=str(system.eta),
             nu=str(system.nu),
-            n=str(of.n),
+            n=str(orbit.n),
             phase=texts(phase),
-            early=str(_inside(motion, of.n)) if early else None,
-            flight=self.prover.impact(phase)[0] if first else None,
+            early=str(_inside(motion, orbit.n)) if early else None,
+            flight=self.prover.impacts(phase)[0][0] if first else None,
         )
 
     def eta_windows(self, nu: Fraction, low: Fraction) -> str:
@@ -82,10 +82,10 @@ class Single:
         """Record all windows in eta >= low at which stable orbits exist, for nu in [-3/10, 0)."""
         bits, ends, n = self.prover.bits, list[tuple[Range, Range]](), 1
         while n * low < 1:
-            whole = Fraction(1, 2 * n), Fraction(1, n)
-            saddle = eta_end(nu, n, SADDLE, bits, whole)
+            between = Fraction(1, 2 * n), Fraction(1, n)
+            saddle = eta_end(nu, n, SADDLE, bits, between)
             sticks = 1 - nu <= n * n * -nu
-            last = eta_end(nu, n, STICK, bits, whole) if sticks else (whole[1], whole[1])
+            last = eta_end(nu, n, STICK, bits, between) if sticks else (between[1], between[1])
             if last[0] <= low:
                 break
             ends.append((saddle, last))
@@ -146,24 +146,24 @@ def examples(system: System, most: int) -> Iterator[SingleImpact]:
             yield from solutions(system, n, 80)
 
 
-def _contracts(one: SingleImpact) -> bool:
-    return one.multiplier is not None and -1 < one.multiplier[0] <= one.multiplier[1] < 1
+def _contracts(orbit: SingleImpact) -> bool:
+    return orbit.multiplier is not None and -1 < orbit.multiplier[0] <= orbit.multiplier[1] < 1
 
 
 def _first(system: System, most: int, reason: str) -> SingleImpact:
     """Return the first solution with |slope| < 1 that is not an orbit for this reason."""
-    for one in examples(system, most):
-        if one.reason == reason and _contracts(one):
-            return one
+    for orbit in examples(system, most):
+        if orbit.reason == reason and _contracts(orbit):
+            return orbit
     raise Undecided(f"no solution of (16) with |slope| < 1 is found: {reason}")
 
 
 def _stability(steps: Single) -> list[str]:
     paper, system = System(PAPER.eta, PAPER.nu), steps.prover.system
     names = [steps.solution(paper, _first(paper, _MOST, "an earlier impact"), early=True)]
-    for one in examples(system, _ORBITS):
+    for orbit in examples(system, _ORBITS):
         with suppress(*FAILED), steps.prover.undone():
-            names += [steps.solution(system, one, first=True)] if one.admissible else []
+            names += [steps.solution(system, orbit, first=True)] if orbit.admissible else []
     return names
 
 

@@ -19,15 +19,15 @@ from proofs.trusted.paper.s5_soft import doubling, near, soft, stability
 _LIMIT = NormalForm(Map(("x", "lam"), near.LOCAL), "flip")
 
 
-def _written(wanted: Unknowns, found: Mapping[str, Any]) -> dict[str, str]:
-    return {name: derive.write(found[name]) for name in wanted.names}
+def _written(wanted: Unknowns, values: Mapping[str, Any]) -> dict[str, str]:
+    return {name: derive.write(values[name]) for name in wanted.names}
 
 
 def _flip(wanted: Unknowns) -> dict[str, str]:
     """Solve for the flip of the limit map, and its centre manifold."""
     texts = (*_LIMIT.map.fixed, _LIMIT.condition())
-    (found,) = solve([derive.read(f"at({each}, x=0)") for each in texts], ("lam", "b", "a"))
-    return _written(wanted, coefficients(_LIMIT, {"x": derive.read("0"), **found}, "a"))
+    (flip,) = solve([derive.read(f"at({each}, x=0)") for each in texts], ("lam", "b", "a"))
+    return _written(wanted, coefficients(_LIMIT, {"x": derive.read("0"), **flip}, "a"))
 
 
 def _cycle(wanted: Unknowns) -> dict[str, str]:
@@ -35,12 +35,15 @@ def _cycle(wanted: Unknowns) -> dict[str, str]:
     import sympy
 
     sides = [_cubic(derive.read(each)) for each in doubling.SIDES]
-    known: dict[Any, Any] = {}
+    coefficients: dict[Any, Any] = {}
     for order, names in enumerate(("b", "a l_1", "b_2 l_2", "a_2 l_3")):
-        rates = [derive.simplest(side[order].subs(known)) for side in sides]
+        rates = [derive.simplest(side[order].subs(coefficients)) for side in sides]
         solved = sympy.solve(rates, sympy.symbols(names), dict=True)[0]
-        known = {x: value.subs(solved) for x, value in known.items()} | solved
-    return {name: derive.write(derive.simplest(known[sympy.Symbol(name)])) for name in wanted.names}
+        coefficients = {x: value.subs(solved) for x, value in coefficients.items()} | solved
+    return {
+        name: derive.write(derive.simplest(coefficients[sympy.Symbol(name)]))
+        for name in wanted.names
+    }
 
 
 def _cubic(side: Any) -> list[Any]:
@@ -51,8 +54,8 @@ def _cubic(side: Any) -> list[Any]:
     side = side.replace(sympy.cos, lambda x: 1 - x**2 / 2)
     h = sympy.Symbol("h")
     others = sympy.QQ.frac_field(*sorted(side.free_symbols - {h}, key=str))
-    found = sympy.ring(h, others)[0].from_expr(side)
-    return [others.to_sympy(found.coeff(found.ring.gens[0] ** n)) for n in range(4)]
+    series = sympy.ring(h, others)[0].from_expr(side)
+    return [others.to_sympy(series.coeff(series.ring.gens[0] ** n)) for n in range(4)]
 
 
 def _jet(wanted: Unknowns, *, height: int, slope: int) -> dict[str, str]:
@@ -64,15 +67,15 @@ def _jet(wanted: Unknowns, *, height: int, slope: int) -> dict[str, str]:
     unknowns = [sympy.Symbol(name) for name in wanted.names[:5]]
     image = slope * h + sum(s * x for s, x in zip(unknowns[1:], terms[1:], strict=True))
     side = derive.read(f"at({near.LOCAL_PLASTIC}, a={height}, x=h)").subs("x1", image)
-    known = {unknowns[0]: sympy.Integer(slope)}
+    jet = {unknowns[0]: sympy.Integer(slope)}
     for unknown, term in zip(unknowns[1:], terms[1:], strict=True):
-        rate = side.diff(*_by(term)).subs({h: 0, r: 0}).subs(known)
-        known[unknown] = derive.simplest(sympy.solve(rate, unknown)[0])
-    once = image.subs(known)
+        rate = side.diff(*_by(term)).subs({h: 0, r: 0}).subs(jet)
+        jet[unknown] = derive.simplest(sympy.solve(rate, unknown)[0])
+    once = image.subs(jet)
     twice = once.subs(h, once)
     rates = [twice.diff(*_by(x)).subs({h: 0, r: 0}) for x in (r, h**2, h * r, h**3)]
-    found = [known[unknown] for unknown in unknowns] + [derive.simplest(x) for x in rates]
-    return _written(wanted, dict(zip(wanted.names, found, strict=True)))
+    values = [jet[unknown] for unknown in unknowns] + [derive.simplest(x) for x in rates]
+    return _written(wanted, dict(zip(wanted.names, values, strict=True)))
 
 
 def _by(term: Any) -> list[Any]:

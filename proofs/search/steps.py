@@ -1,35 +1,37 @@
 """Proof steps of the plastic map: each proves something and records its witness.
 
-The steps are those of `proofs.trusted.flights`, by the same names. A witness is what its lemmas say
-of floats; the checker's rule concludes from it, and where it does not, from what they say of the
-checker's numbers. So neither mpmath nor numpy is needed.
+What f is on intervals is asked of the checker's own map. A witness of a flight is what its lemmas
+say of floats; the checker's rule concludes from it, and where it does not, from what they say of
+the checker's numbers. So neither mpmath nor numpy is needed.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from functools import partial
+from functools import cached_property, partial
 from typing import Any, TypeVar
 
-from proofs.methods.derivation import Derivation
+from proofs.methods.derivation import Derivation, concluded
 from proofs.methods.extremes import extremes
 from proofs.methods.moran import moran_root
-from proofs.motion.branch import Branch
 from proofs.motion.covering import cover_by
 from proofs.motion.system import System
-from proofs.motion.witness import FlightBox, Seen, locate
+from proofs.motion.witness import FlightBox, Seen
 from proofs.search.evidence import Proved, Steps, floats_first
 from proofs.trusted.certificate import texts
 from proofs.trusted.flights import FirstImpact
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.differential import BITS, Differential
+from proofs.trusted.kernel.enclose import enclosed
 from proofs.trusted.kernel.laps import SlopeRange
 from proofs.trusted.kernel.moran import MoranRoot
 from proofs.trusted.kernel.staying import StayingSet
-from proofs.trusted.numbers import Range, show_range
+from proofs.trusted.numbers import TURN, Range, show_range
+from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.parameters import Parameters, Place
-from proofs.trusted.slopes import Avoids, Impact, comes_to
+from proofs.trusted.slopes import Avoids, comes_to
 
 _Made = TypeVar("_Made")
 
@@ -50,8 +52,18 @@ class Prover(Derivation):
 
     @property
     def bits(self) -> int:
-        """Binary places of a bracket: enough for the digits after a loss of some 2^10."""
-        return self.digits * 10 // 3 + 16
+        """Binary places: enough for the digits after a loss of some 2^30."""
+        return max(BITS, self.digits * 10 // 3 + 36)
+
+    @cached_property
+    def impact_map(self) -> PlasticMap:
+        """The checker's map f, with impacts up to the horizon."""
+        return PlasticMap(self.at, self.horizon)
+
+    @property
+    def function(self) -> dict[str, list[str]]:
+        """It, as witnesses name it."""
+        return {"eta": texts(self.at.eta), "nu": texts(self.at.nu)}
 
     def derive(self, rule: str, witness: dict[str, Any]) -> tuple[str, Any]:
         """Add a step; return its name, with what it concludes."""
@@ -71,9 +83,9 @@ class Prover(Derivation):
 
         return floats_first(made)
 
-    def add_impact(self, found: Seen) -> tuple[str, FirstImpact]:
+    def add_impact(self, seen: Seen) -> tuple[str, FirstImpact]:
         """Prove a first impact (rule first-impact)."""
-        phases, times = texts(found.flights.phases), texts(found.times)
+        phases, times = texts(seen.flights.phases), texts(seen.times)
         return self.derive("first-impact", {"phases": phases, "times": times})
 
     def flights(self, phases: Range) -> FlightBox:
@@ -88,32 +100,27 @@ class Prover(Derivation):
         parts = cover_by(self.flights(phases), horizon=self.horizon, floats=floats)
         return [self.add_impact(part) for part in parts]
 
-    def impact(self, phases: Range) -> tuple[str, FirstImpact]:
-        """Prove the transversal first impact of (nearly) one launch."""
-        return self.seen_or_proved(partial(self._impact, phases))
-
-    def _impact(self, phases: Range, floats: bool) -> tuple[str, FirstImpact]:
-        return self.add_impact(locate(self.flights(phases), horizon=self.horizon, floats=floats))
-
     def slopes(self, points: list[Fraction]) -> tuple[str, SlopeRange]:
-        """Prove f C^1 on [points[0], points[-1]] and enclose f' there (rule slope-range)."""
-        return self.seen_or_proved(partial(self._slopes, points))
+        """Prove f C^1 on [points[0], points[-1]] and enclose f' there (rule slopes)."""
 
-    def _slopes(self, points: list[Fraction], floats: bool) -> tuple[str, SlopeRange]:
-        parts = self._impacts((points[0], points[-1]), floats)
-        branch = Branch(parts, self.bits, floats)
-        cuts = sorted({*points, *branch.ends})
-        found = extremes(lambda x: branch.slope(x, x), branch.curvature, cuts)
-        return self.derive("slope-range", branch.witness(found.points))
+        def slope(x: Fraction) -> Range:
+            return self.impact_map.jacobian(enclosed(((x, x),), BITS))[0][0].range
+
+        def bend(low: Fraction, high: Fraction) -> Range:
+            return self.impact_map.bend(enclosed(((low, high),), BITS)).range
+
+        cuts = texts(extremes(slope, bend, points).points)
+        witness = {"function": self.function, "points": cuts, "bits": str(self.bits)}
+        return self.derive("slopes", witness)
 
     def avoids(self, phases: Range, target: Range) -> tuple[str, Avoids]:
         """Prove that no phase of `phases` has its first impact in `target` (rule avoids)."""
         return self.seen_or_proved(partial(self._avoids, phases, target))
 
     def _avoids(self, phases: Range, target: Range, floats: bool) -> tuple[str, Avoids]:
-        def accept(found: Seen) -> bool:
+        def accept(seen: Seen) -> bool:
             return not any(
-                comes_to(self.at, found.flights.phases, window, target) for window in found.windows
+                comes_to(self.at, seen.flights.phases, window, target) for window in seen.windows
             )
 
         parts = cover_by(
@@ -127,13 +134,22 @@ class Prover(Derivation):
         flights = [self.add_impact(part)[0] for part in parts]
         return self.derive("avoids", {"flights": flights, "target": texts(target)})
 
-    def point(self, phase: Fraction) -> tuple[str, Impact]:
-        """Enclose f and f' at one phase (rule point)."""
-        return self.seen_or_proved(partial(self._point, phase))
-
-    def _point(self, phase: Fraction, floats: bool) -> tuple[str, Impact]:
-        branch = Branch([self._impact((phase, phase), floats)], self.bits, floats)
-        return self.derive("point", branch.bracket(phase, phase, phase=str(phase)))
+    def point(self, phase: Fraction) -> tuple[str, Differential]:
+        """Enclose f and f' at one phase (rule differential)."""
+        (image,) = self.impact_map.values(enclosed(((phase, phase),), BITS))
+        witness = {
+            "function": self.function,
+            "box": [texts((phase, phase))],
+            "turns": [str(image.range[0] // TURN)],
+            "bits": str(self.bits),
+        }
+        conclusion = concluded("differential", witness, self.context)
+        name = f"point-{1 + sum(name.startswith('point-') for name in self.steps)}"
+        self.steps[name], self.known[name] = (
+            {"rule": "differential", "witness": witness},
+            conclusion,
+        )
+        return name, conclusion
 
     def root(self, ratios: Range) -> tuple[str, MoranRoot]:
         """Bracket the root of r0^s + r1^s = 1 (rule moran-root)."""
@@ -148,7 +164,7 @@ class Prover(Derivation):
     ) -> tuple[str, StayingSet]:
         """Prove what stays in a region (rule staying-set).
 
-        cells: each a slope-range step and two of its points.
+        cells: each a step of the rule slopes and two of its points.
         """
         witness = {
             "region": [texts(part) for part in region],
@@ -165,7 +181,7 @@ class Prover(Derivation):
     ) -> tuple[str, StayingSet]:
         """Prove a horseshoe on I0 and I1 of `sets`."""
         cells = list(zip(slopes, (sets.left, sets.right), strict=True))
-        name, found = self.stays([sets.interval], cells, [gap])
-        if not found.is_horseshoe:
+        name, shift = self.stays([sets.interval], cells, [gap])
+        if not shift.is_horseshoe:
             raise Unproved("I is not covered")
-        return name, found
+        return name, shift

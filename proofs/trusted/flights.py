@@ -7,14 +7,13 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, partial
 from itertools import pairwise
-from typing import ClassVar
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.equations import Clock, Launch, clock, gap, launch, launch_acceleration, slope
+from proofs.trusted.equations import Clock, Launch, clock, gap, launch, launch_acceleration
 from proofs.trusted.kernel.arithmetic import Dual, Enclosure, Unproved, pi, rational
-from proofs.trusted.kernel.conclusion import Conclusion, Subject
+from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.gaps import Gap, brackets, fall, first_windows
+from proofs.trusted.kernel.gaps import Gap, brackets, first_windows
 from proofs.trusted.numbers import (
     COVER_BITS,
     MAX_BITS,
@@ -30,26 +29,6 @@ from proofs.trusted.parameters import Place
 
 LATEST = 10**6
 _ZERO = Fraction(0)
-
-
-# -- plastic impacts -------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class PlasticMap(Subject):
-    """The plastic impact map f of oscillators: from the phase of an impact to that of the next."""
-
-    at: Place
-    name: ClassVar = "f"
-    definition: ClassVar = "f"
-    smooth: ClassVar = ", all first impacts from there being transversal"
-    of_orbits: ClassVar = (
-        "; all its impacts are transversal, and after each the mass leaves the table at once"
-    )
-
-    def periods(self, bits: int) -> dict[int, Enclosure]:
-        """Enclose 2 pi."""
-        return {0: pi(bits) * 2}
 
 
 @dataclass(frozen=True)
@@ -125,21 +104,6 @@ class Motion:
         """The gap as a function of time and order."""
         return partial(self.gap, self.start())
 
-    def slope(self, time: Range) -> Enclosure:
-        """Enclose f' for impacts at times in `time`."""
-        value: Enclosure = slope(self.start(), self.clock(time), fall(self.gap_of, time))
-        return value
-
-    def curvature(self, time: Range) -> Enclosure:
-        """Enclose f'': the derivative of the slope along (phi + s, t + (f' - 1) s)."""
-        start, now = self.start(), self.clock(time)
-        down = fall(self.gap_of, time)
-        faster = slope(start, now, down) - 1
-        change = gap(self.moving, now, 1).derivative + self.gap(start, time, 2) * faster
-        later = self.clock(Dual(Enclosure.of(*time, self.bits), faster))
-        bent: Dual = slope(self.moving, later, Dual(down, change))
-        return bent.derivative
-
 
 @dataclass(frozen=True)
 class FirstImpact(Conclusion):
@@ -197,16 +161,6 @@ def first_impact(context: Context, reader: Reader) -> FirstImpact:
     return FirstImpact(at, motion, *first_windows(motion.gap_of, times, *orders))
 
 
-def transversal_step(context: Context, name: Reader, phases: Range) -> FirstImpact:
-    """Return the transversal first-impact step of that name, which must contain `phases`."""
-    step = context.step(name, FirstImpact)
-    if not step.transversal:
-        raise Unproved("the first impact is not transversal")
-    if not within(phases, step.motion.phases):
-        raise name.fail("the step is about other phases")
-    return step
-
-
 def bits_for_pieces(times: Sequence[Fraction]) -> int:
     """Return the precision for pieces of times: gaps are of the order w^2 in a piece of width w."""
     shortest = min(now - before for before, now in pairwise((_ZERO, *times)))
@@ -241,15 +195,3 @@ def lifted(phases: Range, turns: int, bits: int) -> Range:
     """Enclose phases + 2 pi turns."""
     low, high = whole_turns(turns, bits)
     return phases[0] + low, phases[1] + high
-
-
-def phase_after(phase: Fraction, time: Range, bits: int) -> Range:
-    """Enclose phase + time, less the multiple of 2 pi that puts its lower end in [0, 2 pi).
-
-    The upper end may lie beyond 2 pi: what is compared with phases is made a `Phase` first.
-    """
-    total = phase + time[0]
-    count = total // whole_turns(1, bits)[0]
-    if total < whole_turns(count, bits)[1]:  # the multiple is not decided: take the smaller one
-        count -= 1
-    return lifted((total, phase + time[1]), -count, bits)

@@ -139,11 +139,6 @@ def common(one: Range, two: Range) -> Range:
     return low, high
 
 
-def agree(bounds: Range, digits: int) -> bool:
-    """Whether two bounds are equal to `digits` significant digits."""
-    return bounds[1] - bounds[0] <= min(abs(bounds[0]), abs(bounds[1])) / Fraction(10) ** digits
-
-
 def bits_for(time: Range) -> int:
     """Return the precision that a bracket of this width deserves."""
     width = time[1] - time[0]

@@ -19,8 +19,6 @@ Rule = Callable[[Context, Reader], Conclusion]
 RULES: Mapping[str, str] = MappingProxyType(
     {
         "first-impact": "flights.first_impact",
-        "point": "slopes.point",
-        "slope-range": "slopes.slope_range",
         "avoids": "slopes.avoids",
         "formula-equal": "kernel.values.equal",
         "formula-series": "kernel.values.series",
@@ -34,6 +32,7 @@ RULES: Mapping[str, str] = MappingProxyType(
         "no-impact": "kernel.outcomes.no_impact",
         "pressed": "kernel.outcomes.pressed",
         "graze": "kernel.outcomes.graze",
+        "trapping": "kernel.trapping.trapping",
         "arc": "kernel.arcs.arc",
         "h-set": "kernel.covers.h_set",
         "covers": "kernel.covers.covers",

@@ -1,33 +1,21 @@
-"""The plastic impact map f on intervals of phases: slopes, images, what it avoids."""
+"""The plastic impact map f: its slope and image at a phase, what it avoids."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.flights import (
-    FirstImpact,
-    PlasticMap,
-    bracketed,
-    phase_after,
-    read_phases,
-    transversal_step,
-)
+from proofs.trusted.flights import FirstImpact, read_phases
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.laps import Gap, SlopeRange, meets
-from proofs.trusted.numbers import (
-    Phase,
-    Phases,
-    Range,
-    between,
-    mean_values,
-    show,
-    show_range,
-    within,
-)
+from proofs.trusted.kernel.differential import Differential
+from proofs.trusted.kernel.laps import Gap, meets
+from proofs.trusted.numbers import Phase, Phases, Range, between, show, show_range, within
+from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.parameters import Place
 
 
@@ -44,6 +32,27 @@ class Impact(Conclusion):
     def sentence(self) -> str:
         slope, image = between(self.slope, 12), between(self.image, 12)
         return f"f'({show(self.phase)}) is in {slope}, f({show(self.phase)}) in {image}."
+
+
+def impact(point: Differential) -> Impact:
+    """Theorem. What the rule `differential` concludes of f at one phase is `Impact`; else Unproved.
+
+    Proof. f is continuously differentiable near the phase, and f less some turns is in [0, 2 pi).
+    """
+    (phase, last), *others = point.box
+    if not isinstance(point.function, PlasticMap) or others or phase != last:
+        raise Unproved("one phase is expected")
+    return Impact(point.function.at, phase, point.matrix[0][0], Phase(*point.values[0]))
+
+
+def impacts(found: Iterable[Conclusion]) -> list[Impact]:
+    """Return what conclusions say of f at single phases."""
+    known = []
+    for each in found:
+        with suppress(Unproved):
+            if isinstance(each, Impact | Differential):
+                known.append(impact(each) if isinstance(each, Differential) else each)
+    return known
 
 
 @dataclass(frozen=True)
@@ -67,56 +76,6 @@ class Avoids(Gap):
     def sentence(self) -> str:
         phases, target = show_range(self.phases), show_range(self.target)
         return f"no phase of {phases} has its first impact in {target}."
-
-
-# -- the rules ------------------------------------------------------------------------------------
-
-
-def point(context: Context, reader: Reader) -> Impact:
-    """Rule `point`: {flight, phase, time}: a bracket of one launch's transversal first impact.
-
-    Conclusion: f'(phase) and f(phase), from the slope formula and phase + time.
-
-    Proof. The gap has opposite signs at the ends of the bracket, and falls: the impact is in it.
-    gap(phase, t) = 0 gives dt/dphase = -(dgap/dphase)/gap', and f' = 1 + dt/dphase is `slope`.
-    """
-    phase, slope, image = _launched(context, reader)
-    return Impact(context.place, phase, slope, Phase(*image))
-
-
-def _launched(context: Context, reader: Reader) -> tuple[Fraction, Range, Range]:
-    """Return the phase of a {flight, phase, time}, f' there, and f as `phase_after` has it."""
-    flight, phase_of, time_of = reader.fields("flight", "phase", "time")
-    phase, time = phase_of.number(), time_of.range()
-    step = transversal_step(context, flight, (phase, phase))
-    motion = bracketed(step, (phase, phase), time)
-    return phase, motion.slope(time).range, phase_after(phase, time, motion.bits)
-
-
-def slope_range(context: Context, reader: Reader) -> SlopeRange:
-    """Rule `slope-range`: {points: [{flight, phase, time}], pieces: [{flight, time}]}.
-
-    Hypotheses: phases x_0 < ... < x_n with brackets; for every piece [x_i, x_(i+1)] a transversal
-    first-impact step that contains it, and a bracket for all its launches. Conclusion: f is C^1
-    on [x_0, x_n], and with f'' enclosed over a piece of width w, f' lies in both f'(x_i) + f'' [0,
-    w] and f'(x_(i+1)) - f'' [0, w]. Proof. Transversal impacts are smooth in the phase, and at a
-    shared end the first impact is the same. The bounds are the mean value theorem, for f'.
-    """
-    points_of, pieces_of = reader.fields("points", "pieces")
-    phases, slopes, images = zip(
-        *(_launched(context, entry) for entry in points_of.items(least=2)), strict=True
-    )
-    pieces, count = [], len(phases) - 1
-    for index, entry in enumerate(pieces_of.items(count, count)):
-        flight, time_of = entry.fields("flight", "time")
-        piece = phases[index], phases[index + 1]
-        if piece[0] >= piece[1]:
-            raise points_of.fail("phases must increase")
-        time = time_of.range()
-        motion = bracketed(transversal_step(context, flight, piece), piece, time)
-        bend, width = motion.curvature(time).range, piece[1] - piece[0]
-        pieces.append(mean_values(slopes[index], slopes[index + 1], bend, width))
-    return SlopeRange(PlasticMap(context.place), phases, slopes, images, tuple(pieces))
 
 
 def avoids(context: Context, reader: Reader) -> Avoids:

@@ -148,6 +148,24 @@ def image(view, rng):
     return []
 
 
+def trapped(view, rng):
+    """Images of points of the boxes are in boxes, angles aside."""
+    angles = {place for place, *_ in view.function.circles}
+    places = [i for i in range(len(view.boxes[0])) if i not in angles]
+    for box in view.boxes:
+        with flint.ctx.workprec(BITS):
+            points = list(sampled(box, rng))
+            if view.function.kind == "Flow":
+                images = solved(view.function)(np.hstack([column(x) for x in points])).T
+            else:
+                images = [values(view.function, point) for point in points]
+        for point, found in zip(points, images, strict=True):
+            ends = [[(float(found[i]), *map(float, box[i])) for i in places] for box in view.boxes]
+            if not any(all(low <= x <= high for x, low, high in sides) for sides in ends):
+                return [f"the image of {_told(point)} is in none of the boxes"]
+    return []
+
+
 def zeros_in(function, box, rng):
     """The zeros that Newton's method finds inside a box; function: as for `newton`."""
     found = []

@@ -73,6 +73,21 @@ def _at_point(view, phase, slope, image):
     return told
 
 
+def at_phases(view, rng):
+    """f on an interval of phases, or at one: f', and f less so many turns."""
+    (phases,), (values,), ((slope,),), told = view.region, view.values, view.matrix, []
+    for phase in points(phases, rng, 2):
+        found = _impact(view, phase)
+        if isinstance(found, Impact):
+            moved = found.lifted - two_pi() * view.turns[0]
+            told += [] if inside(moved, values) else [f"f({float(phase):.12g}) is {moved.str(15)}"]
+            ok = inside(found.slope, slope)
+            told += [] if ok else [f"f'({float(phase):.12g}) is {found.slope.str(15)}"]
+        elif found:
+            told.append(f"the launch at {float(phase):.9g}: {found}")
+    return told
+
+
 def slope_range(view, rng):
     """f is C^1 from the first point to the last, f' in the bounds of the pieces."""
     count = len(view.points)

@@ -5,7 +5,7 @@ from itertools import product
 from math import inf
 from types import SimpleNamespace
 
-from tests.oracles import planar
+from tests.oracles import planar, plastic
 from tests.oracles.motion import TURN, Impact, ball, flight, inside, inside_mod
 from tests.oracles.plastic import between
 
@@ -46,6 +46,8 @@ def differential(view, rng):
 def _faults(view, rng, region, image, matrix=None):
     if planar.is_of_a_file(view):
         return planar.faults(view, rng, region, image, matrix)
+    if view.function.kind == "PlasticMap":
+        return plastic.at_phases(view, rng)
     told = []
     if view.box[0][0] <= 0 or view.box[1][0] * view.box[1][1] <= 0 or not view.box[2][0] >= 0:
         return ["the box leaves the model"]

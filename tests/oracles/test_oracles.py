@@ -426,6 +426,9 @@ FALSE = {
     ],
     "UniqueZero": [put("box", lambda old: tuple((b + 10, b + 11) for _, b in old))],
     "Image": [put("bounds", lambda old: tuple((b + 10, b + 11) for _, b in old))],
+    "Trapped": [
+        put("boxes", lambda old: tuple(((b + 10, b + 11), *rest) for (_, b), *rest in old))
+    ],
     "NoImpact": [put("box", lambda old: (*old[:-1], (F(-2), F(-2))))],
     "Pressed": [put("box", lambda old: (*old[:-1], (F(2), F(2))))],
     "Graze": [

@@ -158,6 +158,24 @@ def test_a_file_of_another_system_is_not_replaced(tmp_path):
     assert file.read_text() == kept
 
 
+def test_an_attractor_is_trapped():
+    """By hand: |x'| <= 0.5 + 0.4 sin 1 < 1, |v'| <= 0.9; a union; a box that some images leave."""
+    spiral = Map("x/2 + 0.4*sin(v)", "0.9*x", variables=("x", "v"))
+    (trapped,) = accepted(spiral.trapping(x=("-1", "1"), v=("-1", "1")))
+    assert "`F` has a fixed point in T." in trapped.sentence
+    halves = [{"x": sides, "v": ("-1", "1")} for sides in (("-1", "0"), ("0", "1"))]
+    (union,) = accepted(spiral.trapping(halves[0], **halves[1]))
+    assert "the union of the 2 boxes" in union.sentence
+    for side in (("-0.6", "0.6"), ("-0.1", "1")):
+        with pytest.raises(Undecided, match="images are not all seen to lie in the boxes"):
+            spiral.trapping(x=side, v=("-1", "1"))
+    cylinder = Map("a + v", "v/2 + sin(a)/4", periods={"a": "2*pi"})
+    (ring,) = accepted(cylinder.trapping(a=("0", "7"), v=("-0.6", "0.6")))
+    assert "fixed point" not in ring.sentence
+    with pytest.raises(Undecided, match="all around"):
+        cylinder.trapping(a=("0", "6"), v=("-0.6", "0.6"))
+
+
 # -- systems ---------------------------------------------------------------------------------------
 
 
@@ -489,6 +507,25 @@ def test_a_question_that_is_none(asked, told, capsys):
     assert told in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["--seconds", "0"], "some seconds are expected, not 0"),
+        (["--walls", "floor"], "walls are those of a system"),
+        (["--set", "a=2"], "the parameter a is in none of the formulas"),
+    ],
+)
+def test_what_is_no_use_is_told(arguments, told, capsys):
+    with pytest.raises(SystemExit, match="2"):
+        main(["--map", "x/2", *arguments])
+    assert told in capsys.readouterr().err
+
+
+def test_branches_of_flows_are_not_followed():
+    with pytest.raises(Undecided, match="with a closed form"):
+        System.example("van-der-pol").branches(m=("1", "2"))
+
+
 def test_all_orbits_and_images_are_asked_of_the_command(capsys):
     asked = ["--ask", "all:3", "orbits", "image:x=0.3", "--box", "x=-1:2"]
     assert main(["--map", "R*x*(1 - x)", "--set", "R=3.9", *asked]) == 0
@@ -503,6 +540,8 @@ def test_all_orbits_and_images_are_asked_of_the_command(capsys):
         (["--map", "sqrt(x - 10)"], "30 end before: where the map is not defined"),
         (["--map", "x^2 + 1"], "30 end before: beyond 1e+06"),
         (["--map", "x + 0.3 - sin(x)/2"], "x may be an angle: give it the period 2*pi"),
+        (["--map", "x/0"], "30 end before: where the map is not defined"),
+        (["--map", "x^2 - 1"], "18 come to an orbit of period 2 through (-1)\n"),
         (["--map", "x/2"], "of 30 points at random, x in [-3, 3], 30 are followed"),
         (["--example", "wall", "--box", "v=-1:2"], "at once, as at rest or after chatter: -x is"),
         (["--example", "two-walls"], "at another wall than is next in their order"),

@@ -130,8 +130,8 @@ def test_bad_input_says_what_to_write(ask, error, hint):
 @pytest.mark.parametrize(
     ("ask", "rule", "forge"),
     [
-        (lambda: PLASTIC.image("1.13"), "point", ('"phase": "113/100"', '"phase": "57/50"')),
-        (lambda: PLASTIC.image(LEFT), "slope-range", ('"phase": "11/10"', '"phase": "27/25"')),
+        (lambda: PLASTIC.image("1.13"), "differential", ('"113/100"', '"6"')),
+        (lambda: PLASTIC.image(LEFT), "slopes", ('"points": [', '"points": ["0",')),
         (lambda: PLASTIC.image("4"), "separation", ('"eta": [', '"eta": ["1/7",')),
         (lambda: RESTITUTING.image("1.12", "-0.3"), "differential", ('"-3/10"', '"1/2"')),
         (

@@ -43,8 +43,8 @@ def names(certificate: str = "") -> list[str]:
 
 def figures(certificate: str = "") -> list[Figure]:
     """Return the report's figures, or all that one certificate alone gives."""
-    found = []
+    result = []
     for name in names(certificate):
         module, _, attribute = {**_PLACES, **_OWN}[name][1].partition(".")
-        found.append(getattr(import_module(f"{__name__}.{module}"), attribute))
-    return found
+        result.append(getattr(import_module(f"{__name__}.{module}"), attribute))
+    return result

@@ -22,8 +22,10 @@ def main(arguments: list[str] | None = None) -> int:
     """Draw the figures asked for; return the exit status."""
     example = "example:\n  python -m proofs.report.figures --only figure-2 --out runs\n"
     parser = Parser("proofs.report.figures", __doc__, example)
-    known = names()
-    parser.add_argument("--only", nargs="+", choices=known, metavar="NAME", help=", ".join(known))
+    available = names()
+    parser.add_argument(
+        "--only", nargs="+", choices=available, metavar="NAME", help=", ".join(available)
+    )
     parser.add_argument("--out", type=Path, default=Path("reports"), help="default: reports")
     options = parser.parse_args(arguments)
     if "matplotlib" in missing():

@@ -23,18 +23,18 @@ def cylinders(system: System, left: Range, right: Range, levels: int) -> dict[st
     there are any, in floating point."""
     sets = {str(k): (float(low), float(high)) for k, (low, high) in enumerate((left, right))}
     ranges = {name: tuple(image(system, x) or 0.0 for x in ends) for name, ends in sets.items()}
-    found: dict[str, Interval] = dict(sets)
+    phases: dict[str, Interval] = dict(sets)
     for length in range(2, levels + 1):
         for letters in product("01", repeat=length):
             first, rest = letters[0], "".join(letters[1:])
-            if rest not in found:
+            if rest not in phases:
                 continue
-            low = max(found[rest][0], ranges[first][0])
-            high = min(found[rest][1], ranges[first][1])
+            low = max(phases[rest][0], ranges[first][0])
+            high = min(phases[rest][1], ranges[first][1])
             if low < high:
                 ends = (preimage(system, y, *sets[first]) for y in (low, high))
-                found[first + rest] = tuple(ends)  # type: ignore[assignment]
-    return found
+                phases[first + rest] = tuple(ends)  # type: ignore[assignment]
+    return phases
 
 
 def plot(proved: Context) -> Drawing:
@@ -45,26 +45,28 @@ def plot(proved: Context) -> Drawing:
         (both[0], (of.left, of.right), "printed"),
         (both[1], corrected.cells, "corrected"),
     ):
-        whole = left[0], right[1]
-        _levels(axes, whole, (left, right), cylinders(System(of.eta, of.nu), left, right, _LEVELS))
-        repeller = next(x for x in all_of(proved, Repeller) if x.hull == whole)
+        interval = left[0], right[1]
+        _levels(
+            axes, interval, (left, right), cylinders(System(of.eta, of.nu), left, right, _LEVELS)
+        )
+        repeller = next(x for x in all_of(proved, Repeller) if x.hull == interval)
         dimension = between(repeller.dimension, 8)
-        axes.set_title(f"{name}: I = {show_range(whole)}, dimension in {dimension}, proved")
+        axes.set_title(f"{name}: I = {show_range(interval)}, dimension in {dimension}, proved")
     both[1].set_xlabel(r"$\phi$ [rad]")
     style.legend_below(drawing, both[1], 3)
     return drawing
 
 
 def _levels(
-    axes: Axes, whole: Range, sets: tuple[Range, Range], found: dict[str, Interval]
+    axes: Axes, hull: Range, sets: tuple[Range, Range], cylinders: dict[str, Interval]
 ) -> None:
     """Draw a row of intervals for each length of words, and name the first words."""
-    style.proved_boxes(axes, [(whole, (-0.3, 0.3))], style.GREY, "I, exact")
+    style.proved_boxes(axes, [(hull, (-0.3, 0.3))], style.GREY, "I, exact")
     style.proved_boxes(
         axes, [(ends, (-1.3, -0.7)) for ends in sets], style.BLUE, "I0 and I1, exact"
     )
     for length in range(2, _LEVELS + 1):
-        spans = {word: ends for word, ends in found.items() if len(word) == length}
+        spans = {word: ends for word, ends in cylinders.items() if len(word) == length}
         bars = [(low, high - low) for low, high in spans.values()]
         label = "deeper, located in floating point" if length == 2 else "_"
         axes.broken_barh(bars, (-length - 0.3, 0.6), color=style.ORANGE, lw=0.4, label=label)

@@ -34,9 +34,9 @@ def closed(
     """
     window = math.floor(n * (low + high))
     etas = [low + (high - low) * (k + 0.5) / _POINTS for k in range(_POINTS)]
-    found: dict[str, list[float]] = {"folds": [], "flips": []}
+    forms: dict[str, list[float]] = {"folds": [], "flips": []}
     if q == 1 and window < 2:
-        found["where it begins to stick"] = []
+        forms["where it begins to stick"] = []
     for eta in etas:
         x, own = math.pi * n * eta, float(q)
         shares = {
@@ -44,11 +44,11 @@ def closed(
             "flips": eta**2 * (own * own + 1 / math.cos(x) ** 2),
             "where it begins to stick": eta**2,
         }
-        for name, nus in found.items():
+        for name, nus in forms.items():
             p = shares[name]
             nu = math.sqrt(nu_squared(n, q, (eta, p), math.pi)) if p < 1 else math.nan
             nus.append((-1) ** window * nu if nu < 1 else math.nan)
-    for name, nus in found.items():
+    for name, nus in forms.items():
         yield name, etas, nus
 
 

@@ -24,9 +24,9 @@ _SAMPLES = 1200
 _BELOW = (-0.12, 0.0)  # where sets of phases are marked
 
 
-def crossings(found: StayingSet) -> list[tuple[Range, Range]]:
+def crossings(shift: StayingSet) -> list[tuple[Range, Range]]:
     """Return a box for each arrow: f crosses it from its lower to its upper edge, or down."""
-    return [(found.cells[i], found.cells[j]) for i, after in enumerate(found.onward) for j in after]
+    return [(shift.cells[i], shift.cells[j]) for i, after in enumerate(shift.onward) for j in after]
 
 
 def steps(cells: tuple[Range, ...]) -> list[tuple[Range, Range]]:
@@ -36,7 +36,7 @@ def steps(cells: tuple[Range, ...]) -> list[tuple[Range, Range]]:
 
 def plot(proved: Context) -> Drawing:
     """Draw f, and the sets of all conclusions."""
-    of = proved.of
+    statement = proved.of
     kinds = (StayingSet, EntropyBound, StableOrbit, StickingMotion, NeverImpacts)
     if not any(all_of(proved, kind) for kind in kinds):
         raise Undecided("the certificate proves nothing about sets of phases")
@@ -57,7 +57,9 @@ def plot(proved: Context) -> Drawing:
         style.proved_boxes(axes, boxes, style.BLUE, "a stable orbit, proved", lw=4)
     for motion in all_of(proved, StickingMotion):
         style.proved_boxes(axes, steps(motion.cells), style.ORANGE, "its impacts, proved", lw=4)
-    style.dots(axes, graph(System(of.eta, of.nu), 0.0, math.tau, _SAMPLES), "f, sampled")
+    style.dots(
+        axes, graph(System(statement.eta, statement.nu), 0.0, math.tau, _SAMPLES), "f, sampled"
+    )
     axes.plot([0, math.tau], [0, math.tau], color=style.GREY, lw=0.6, label=r"$f(\phi) = \phi$")
     axes.set(xlabel=r"$\phi$ [rad]", ylabel=r"$f(\phi)$ [rad]")
     axes.set(xlim=(0, math.tau), ylim=(_BELOW[0], math.tau))

@@ -27,16 +27,16 @@ def plot(proved: Context) -> Drawing:
     printed = next(iter(golden_means(horseshoes)), None)
     if printed is None:
         raise Undecided("it is not proved which orbits stay in the printed rectangles")
-    known = shoes(horseshoes)
-    corrected = next((x for x in known if x.at == printed.at), None)
+    corrections = shoes(horseshoes)
+    corrected = next((x for x in corrections if x.at == printed.at), None)
     if corrected is None:
         raise Undecided("no horseshoe is proved at the printed epsilon")
     drawing, both = style.sheet(3.6, 1, 2, sharey=True)
-    for axes, found, name in ((both[0], printed, "printed"), (both[1], corrected, "corrected")):
-        if not isinstance(found.strips, Strips):
+    for axes, horseshoe, name in ((both[0], printed, "printed"), (both[1], corrected, "corrected")):
+        if not isinstance(horseshoe.strips, Strips):
             raise Undecided("the rectangles are not two with the same velocities")
-        _strips(axes, proved, found.at, found.strips)
-        left, right = show_range(found.strips.left), show_range(found.strips.right)
+        _strips(axes, proved, horseshoe.at, horseshoe.strips)
+        left, right = show_range(horseshoe.strips.left), show_range(horseshoe.strips.right)
         axes.set_title(f"{name}: phases {left} and {right}")
         axes.set_ylim(-0.48, 0.06)
         axes.set_xlabel(r"phase $\phi$ [rad]")
@@ -55,9 +55,9 @@ def _strips(axes: Axes, proved: Context, at: Place, strips: Strips) -> None:
         for each in all_of(proved, Rectangle):
             if (each.place, each.box) != (at, box):
                 continue
-            whole = [(part.values[0], part.values[1]) for part in each.parts]
+            images = [(part.values[0], part.values[1]) for part in each.parts]
             edges = [(phase, velocity) for phase, velocity in each.edges]
-            style.proved_boxes(axes, whole, light, f"image of V{index} lies in here, proved", lw=0)
+            style.proved_boxes(axes, images, light, f"image of V{index} lies in here, proved", lw=0)
             label = "those of its left and right sides in here, proved"
             style.proved_boxes(axes, edges, dark, label, lw=0)
         style.outline(axes, phases, velocities, "V1 and V2" if index == 1 else "_", lw=0.8)

@@ -18,8 +18,8 @@ def image(system: System, phase: float) -> float | None:
     start = launch(system.side, float(system.eta), float(system.nu), phase)
     if launch_acceleration(start) < 0:
         return separation_phase(system) % math.tau
-    found = next_impact(system, phase, 0.0, _HORIZON)
-    return None if found is None else (phase + found[0]) % math.tau
+    impact = next_impact(system, phase, 0.0, _HORIZON)
+    return None if impact is None else (phase + impact[0]) % math.tau
 
 
 def graph(system: System, first: float, last: float, count: int) -> list[tuple[float, float]]:
@@ -34,9 +34,9 @@ def preimage(system: System, target: float, first: float, last: float) -> float:
     """
     phase = (first + last) / 2
     for _ in range(_STEPS):
-        found = first_impact(system, phase)
-        if found is None:
+        impact = first_impact(system, phase)
+        if impact is None:
             break
-        _, there, slope = found
+        _, there, slope = impact
         phase = min(max(phase - (there - target) / slope, first), last)
     return phase

@@ -34,15 +34,15 @@ def values(formula: str, points: Sequence[Mapping[str, Fraction]]) -> list[float
 
     It is evaluated by the checker's arithmetic; what is returned is inside its bounds.
     """
-    read, found = read_formulas(Reader(formula)), []
+    read, result = read_formulas(Reader(formula)), []
     for inputs in points:
         point = [rational(inputs[name], _BITS) for name in read.variables]
         try:
             low, high = read.values(point)[0].range
-            found.append(float(low + high) / 2)
+            result.append(float(low + high) / 2)
         except Unproved:
-            found.append(math.nan)
-    return found
+            result.append(math.nan)
+    return result
 
 
 def curve(formula: str) -> list[float]:
@@ -71,15 +71,15 @@ def grazing() -> list[tuple[float, float, float]]:
 
 def witnesses(proved: Context) -> list[tuple[float, float]]:
     """Return the oscillators, (epsilon, rho), at which the certificate refutes printed claims."""
-    known, found = all_of(proved, Value), set()
+    proved_values, places = all_of(proved, Value), set()
     for claim in ("S14", "S16", "S17"):
         row = find(claim)
         for need in () if row is None else row.needs:
-            if isinstance(need, Asked) and any(need.met_by(value) for value in known):
+            if isinstance(need, Asked) and any(need.met_by(value) for value in proved_values):
                 point = {variable.name: side for variable, side in need.box}
                 if {"epsilon", "rho"} <= point.keys():
-                    found.add((float(point["epsilon"][0]), float(point["rho"][0])))
-    return sorted(found)
+                    places.add((float(point["epsilon"][0]), float(point["rho"][0])))
+    return sorted(places)
 
 
 def plot(proved: Context) -> Drawing:

@@ -23,11 +23,20 @@ from proofs.trusted.kernel.enclose import (
     read_box,
 )
 from proofs.trusted.kernel.laps import Gap, SlopeRange, meets, shifted, turn_of
-from proofs.trusted.kernel.maps import Map, counted, read_turns, turned
-from proofs.trusted.numbers import Range, between, increasing, show_range, within
+from proofs.trusted.kernel.maps import Bent, Map, counted, read_turns, turned
+from proofs.trusted.numbers import (
+    Range,
+    between,
+    common,
+    increasing,
+    mean_values,
+    show_range,
+    within,
+)
 
 BITS = PRECISIONS[0]
 _MOST_POINTS = 1000
+_AT_POINT = 12  # decimals that are written
 
 
 @dataclass(frozen=True)
@@ -47,11 +56,14 @@ class Differential(Conclusion):
         """Return the statement."""
         map_, name = self.function, self.function.name
         place = box_text(self.box, map_.variables)
-        rows = ", ".join(f"({', '.join(map(between, row))})" for row in self.matrix)
+        places = _AT_POINT if all(low == high for low, high in self.box) else 6
+        values = " x ".join(between(each, places) for each in self.values)
+        rows = ", ".join(
+            f"({', '.join(between(each, places) for each in row)})" for row in self.matrix
+        )
         return (
             f"{given(map_)}`{name}` is continuously differentiable for {place}, with values in "
-            f"{' x '.join(map(between, self.values))}{less(map_, self.turns)}, and a derivative "
-            f"with rows in {rows}."
+            f"{values}{less(map_, self.turns)}, and a derivative with rows in {rows}."
         )
 
 
@@ -167,21 +179,34 @@ def slopes(context: Context, reader: Reader) -> SlopeRange:
     Conclusion: F is C^1 on [x_0, x_n]; F and F' are enclosed at the points, F' on the pieces
     between; if the variable is an angle, F is less as many periods as put it in [0, P).
     Proof. Enclosures exist only where F and its derivative are defined, and the pieces are closed.
+    Where F'' is enclosed over a piece of width w, F' lies in F'(x_i) + F'' [0, w] and in
+    F'(x_(i+1)) - F'' [0, w] as well, by the mean value theorem.
     """
     function_of, points_of, bits_of = reader.fields("function", "points", "bits")
     map_, points = context.function(function_of), points_of.numbers(2, _MOST_POINTS)
     if not len(map_.variables) == map_.size == 1 or not increasing(points):
         raise function_of.fail("a map of the line, and points that increase, are expected")
     bits = integer(bits_of, BITS, PRECISIONS[-1])
-    at, between_them = (
-        [differential_on(map_, (side,), [0] * len(map_.circles), bits) for side in sides]
-        for sides in ([(x, x) for x in points], pairwise(points))
-    )
-    images = tuple(_reduced(map_, each.values[0]) for each in at)
-    inner, pieces = (tuple(x.matrix[0][0] for x in parts) for parts in (at, between_them))
-    return SlopeRange(map_, points, inner, images, pieces)
+    turns, over = [0] * len(map_.circles), [_slope_and_bend(map_, x) for x in pairwise(points)]
+    at = [differential_on(map_, ((x, x),), turns, bits) for x in points]
+    inner = tuple(each.matrix[0][0] for each in at)
+    images = tuple(_reduced(map_, each.values[0], bits) for each in at)
+    pieces = [
+        slope if bend is None else common(slope, mean_values(*ends, bend, high - low))
+        for (slope, bend), ends, (low, high) in zip(
+            over, pairwise(inner), pairwise(points), strict=True
+        )
+    ]
+    return SlopeRange(map_, points, inner, images, tuple(pieces))
 
 
-def _reduced(map_: Map, value: Range) -> Range:
+def _slope_and_bend(map_: Map, piece: Range) -> tuple[Range, Range | None]:
+    """Enclose F' on a piece, and F'' if it is known."""
+    x = enclosed((piece,), BITS)
+    slope = map_.jacobian(x)[0][0].range
+    return slope, map_.bend(x).range if isinstance(map_, Bent) else None
+
+
+def _reduced(map_: Map, value: Range, bits: int) -> Range:
     turn = turn_of(map_)
-    return value if turn is None else shifted(map_, value, -int(value[0] // turn))
+    return value if turn is None else shifted(map_, value, -int(value[0] // turn), bits)

@@ -8,7 +8,7 @@ import operator
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from math import isqrt
-from typing import Any, Protocol, TypeVar
+from typing import Any, NamedTuple, Protocol, TypeVar
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel import arithmetic, elementary
@@ -32,6 +32,17 @@ ARITHMETIC: dict[str, Callable[..., Any]] = {
     "/": operator.truediv,
     "negative": operator.neg,
 }
+
+
+class Circle(NamedTuple):
+    """An angle, by its place among the variables; its period, on a tape and as it is written.
+
+    With the period go the values of the parameters in it.
+    """
+
+    place: int
+    root: int
+    period: tuple[str, ...]
 
 
 class Enclosures:

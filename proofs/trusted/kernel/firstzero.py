@@ -11,6 +11,8 @@ from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.gaps import clears
 from proofs.trusted.numbers import Range, between, show
 
+_SMALL = 4  # halvings
+
 
 class Launches(Protocol):
     """All flights from a box of states: what is asked of them."""
@@ -104,7 +106,7 @@ class FirstZero:
                 after = self._at(high)
                 leaves = leaving and self._leaves(low, high)
                 stays = leaves or (falling is None and self._stays(low, high, min(least, after.lo)))
-                falls = not stays and low > 0 and self._of(low, high, 1).hi < 0
+                falls = not stays and low > 0 and self._falls(low, high)
             except Unproved:  # a formula is not proved defined for so long a time
                 leaves = stays = falls = False
             if not (stays or falls):
@@ -119,7 +121,9 @@ class FirstZero:
             self.taken.append(high)
             yield Step(low, high, None) if falling is None else Step(falling, high, after)
             low, least, leaving, is_new = high, after.lo, leaves, True
-            step = 2 * step if leaving or falling is not None else self._likely(2 * step, least)
+            step = (
+                2 * step if leaving or falling is not None else self._likely(low, 2 * step, least)
+            )
             step = next((time - low for time in known if time > low), step)
 
     def _leaves(self, low: int, high: int) -> bool:
@@ -132,6 +136,13 @@ class FirstZero:
             return True
         return self._of(low, high, order + 1).lo > 0 and (low > 0 or self._launch.lo >= 0)
 
+    def _falls(self, low: int, high: int) -> bool:
+        """Whether gap_t < 0 between two times: directly, or by gap_t at the first one and gap''."""
+        if self._of(low, high, 1).hi < 0:
+            return True
+        first = self._of(low, low, 1).hi
+        return first < 0 and first + (self._of(low, high, 2).hi * (high - low) >> self.bits) < -1
+
     def _stays(self, low: int, high: int, least: int) -> bool:
         """Whether the gap, `least` or more at both times, is > 0 between them."""
         if least <= 0:
@@ -141,12 +152,22 @@ class FirstZero:
             return True
         return clears(least, self._of(low, high, 2).hi, width, unit)
 
-    def _likely(self, step: int, least: int) -> int:
-        """Return a step for which a gap of so much is likely to do."""
+    def _likely(self, low: int, step: int, least: int) -> int:
+        """Return a step for which a gap of so much is likely to do: by gap'' at all times that are
+        known, or, where that allows a small part only, by what it is on the step.
+        """
         bend = self._known_bend(0)
-        while bend and not clears(2 * least, bend.hi, step, 1 << self.bits):
-            if step <= self._shortest:
-                break
+        likely = step if bend is None else self._allowed(step, least, bend)
+        if likely > step >> _SMALL:
+            return likely
+        try:
+            return self._allowed(step, least, self._of(low, low + step, 2))
+        except Unproved:  # it is not proved defined so long
+            return likely
+
+    def _allowed(self, step: int, least: int, bend: Enclosure) -> int:
+        """Halve a step until gap'' allows it."""
+        while step > self._shortest and not clears(2 * least, bend.hi, step, 1 << self.bits):
             step >>= 1
         return step
 

@@ -19,26 +19,15 @@ where all gaps are > 0 in between, and the others at the impact too.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
-from fractions import Fraction
-from functools import cached_property
-from itertools import islice
+from dataclasses import dataclass
 from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
-from proofs.trusted.kernel.enclose import Box, Matrix, add, enclosed
-from proofs.trusted.kernel.evaluation import Partial
-from proofs.trusted.kernel.firstzero import FirstZero, Gap, shown
-from proofs.trusted.kernel.formulas import (
-    MAX_VALUES,
-    Circle,
-    Formulas,
-    Placer,
-    same_form,
-)
-from proofs.trusted.kernel.gaps import fall
+from proofs.trusted.kernel.firstzero import Gap
+from proofs.trusted.kernel.formulas import MAX_VALUES, Formulas, Placer, same_form
 from proofs.trusted.kernel.head import optional, read_head, require_name, require_periods
+from proofs.trusted.kernel.returns import ReturnMap
 from proofs.trusted.kernel.trees import (
     Derivative,
     Operation,
@@ -47,13 +36,8 @@ from proofs.trusted.kernel.trees import (
     Variable,
     read_tree,
 )
-from proofs.trusted.numbers import Range
 
-LATEST = Fraction(1024)
 _MOST_MOTIONS, _MOST_GAPS, _MOST_ORDERS = 6, 6, 4
-_ENOUGH = 1024  # moves by a smaller part of the width do not pay
-_COARSE = 64  # bits, in which a window is looked for first
-_REMEMBERED, _AROUND = 256, 16  # impacts; of these, the last, in whose boxes others are looked for
 
 
 class Motion(NamedTuple):
@@ -76,51 +60,11 @@ class Motion(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Flight:
-    """The map of first impacts: the gaps, then the values, as formulas of the state and the time.
-
-    motions: the equations that the forms solve. latest: until when impacts are looked for.
-    """
+class Flight(ReturnMap):
+    """The map, by formulas; motions: the equations that the forms solve."""
 
     formulas: Formulas
-    state: int
-    gaps: tuple[Gap, ...]
     motions: tuple[Motion, ...]
-    latest: Fraction = LATEST
-    _known: dict[tuple[int, ...], tuple[Sequence[Enclosure], Enclosure]] = field(
-        default_factory=dict
-    )  # boxes, with the times of the impacts
-    _last: dict[tuple[int, ...], Impact] = field(default_factory=dict)
-    _taken: dict[int, list[int]] = field(default_factory=dict)  # steps of the last search, by bits
-
-    @property
-    def name(self) -> str:
-        """The map's."""
-        return self.formulas.name
-
-    @property
-    def variables(self) -> tuple[str, ...]:
-        """The state."""
-        return self.formulas.variables[: self.state]
-
-    @property
-    def size(self) -> int:
-        """The number of values."""
-        return len(self.outcome)
-
-    @property
-    def circles(self) -> tuple[Circle, ...]:
-        """The angles among the state."""
-        return self.formulas.circles
-
-    def periods(self, bits: int) -> dict[int, Enclosure]:
-        """Enclose the periods of the angles."""
-        return self.formulas.periods(bits)
-
-    @property
-    def outcome(self) -> tuple[int, ...]:
-        """The values, on the tape."""
-        return self.formulas.roots[len(self.gaps) :]
 
     @property
     def time(self) -> str:
@@ -131,6 +75,25 @@ class Flight:
     def walls(self) -> tuple[Tree, ...]:
         """The gaps, as they are written."""
         return self.formulas.trees[: len(self.gaps)]
+
+    def bend(self, x: Sequence[Enclosure]) -> Enclosure:
+        """Enclose the second derivative of the one value F by the one state.
+
+        With t' = -gap_x / gap_t the total second derivative of a function h of x and t is h_t t'' +
+        h_xx + (2 h_xt + h_tt t') t'; that of the gap is 0, which gives t''.
+        """
+        impact, derivative = self._impact(x), self.formulas.tape.derivative
+
+        def partials(root: int) -> tuple[int, ...]:
+            by_x, by_t = derivative(root, 0), derivative(root, 1)
+            return by_x, by_t, derivative(by_x, 0), derivative(by_x, 1), derivative(by_t, 1)
+
+        roots = self.gaps[0].orders[0], self.outcome[0]
+        values = impact.launches.on([x for root in roots for x in partials(root)], impact.time)
+        gap, own = values[:5], values[5:]
+        later = -(gap[0] / gap[1])
+        bends = [xx + (xt * 2 + tt * later) * later for _, _, xx, xt, tt in (gap, own)]
+        return bends[1] - own[1] * (bends[0] / gap[1])
 
     @property
     def definition(self) -> str:
@@ -143,213 +106,6 @@ class Flight:
             f"`{self.name}({', '.join(self.variables)}) = ({values})` at the first `{time}` > 0 "
             f"where {first} = 0{walls}; {motions}{self.formulas.given}"
         )
-
-    def values(self, x: Sequence[Enclosure]) -> list[Enclosure]:
-        """Enclose the values on a box of states."""
-        impact = self._impact(x)
-        return impact.launches.on(self.outcome, impact.time)
-
-    def jacobian(self, x: Sequence[Enclosure]) -> Matrix:
-        """Enclose the derivative in the state."""
-        return self._derivative(self._impact(x), range(self.state))
-
-    @property
-    def ranges(self) -> Box:
-        """Those of the parameters."""
-        return self.formulas.ranges
-
-    def pinned(self) -> Flight:
-        """Return the map at the middle of the ranges."""
-        return type(self)(self.formulas.pinned(), self.state, self.gaps, self.motions, self.latest)
-
-    def sensitivity(self, x: Sequence[Enclosure]) -> Matrix:
-        """Enclose the derivative by the parameters."""
-        places = range(self.state, self.state + len(self.ranges))
-        return self._derivative(self._impact(x), places)
-
-    def mean_value_form(self, x: Sequence[Enclosure]) -> list[Enclosure]:
-        """Enclose the values by those in the middle of the states and of the parameters.
-
-        F(x, p) is in F(m, q) + F_x (x - m) + F_p (p - q), by the mean value theorem.
-        """
-        impact = self._impact(x)
-        launches = impact.launches
-        time = impact.time
-        enough = (time.hi - time.lo) >> 16
-        middle = Impact.sharp(launches.middle, time.range, enough)
-        values = middle.launches.on(self.outcome, middle.time)
-        rows = self._derivative(impact, launches.wide)
-        return [add(v, row, launches.steps) for v, row in zip(values, rows, strict=True)]
-
-    def _derivative(self, impact: Impact, places: Sequence[int]) -> Matrix:
-        """Enclose F_x - F_t gap_x / gap_t for some inputs x (implicit function theorem: gap_t < 0).
-
-        places: of these among the state and the parameters.
-        """
-        roots, n = (self.gaps[0].orders[0], *self.outcome), len(places) + 1
-        wanted = [root for each in roots for root in self.slopes(each, places)]
-        entries = impact.launches.on((*wanted, *roots), impact.time)
-        (*gap, fall), *rows = (entries[i * n : (i + 1) * n] for i in range(len(roots)))
-        return [[a - row[-1] * g / fall for a, g in zip(row, gap, strict=False)] for row in rows]
-
-    def slopes(self, root: int, places: Sequence[int]) -> list[int]:
-        """Return the derivatives of a root in some of the state and the parameters, and in time."""
-        on_tape = [k if k < self.state else k + 1 for k in places]  # the time is between them
-        return [self.formulas.tape.derivative(root, k) for k in (*on_tape, self.state)]
-
-    def impact(self, x: Sequence[Enclosure]) -> Enclosure:
-        """Enclose the time of the impact, for all states in a box: see `FirstZero`."""
-        return self._impact(x).time
-
-    def _impact(self, x: Sequence[Enclosure]) -> Impact:
-        key = (x[0].bits, *(end for side in x for end in (side.lo, side.hi)))
-        if key not in self._last:
-            launches = Launches(self, list(x), enclosed(self.formulas.ranges, x[0].bits))
-            if key not in self._known:
-                time = Impact.sharp(launches, self._window(launches)).time
-                if len(self._known) == _REMEMBERED:
-                    del self._known[next(iter(self._known))]
-                self._known[key] = launches.states, time
-            self._last.clear()
-            self._last[key] = Impact(launches, self._known[key][1])
-        return self._last[key]
-
-    def _window(self, launches: Launches) -> Range:
-        """Return times between which the first zeros are; of a box inside another one its times."""
-        for states, time in islice(reversed(self._known.values()), _AROUND):
-            if _within(launches.states, states):
-                return time.range
-        try:
-            return self._searched(launches.coarse)
-        except Unproved:
-            if launches.coarse is launches:
-                raise
-            return self._searched(launches)
-
-    def _searched(self, launches: Launches) -> Range:
-        search = FirstZero(launches, self.gaps[0], self._taken.get(launches.states[0].bits, []))
-        window = search.window(self.latest)
-        for gap in self.gaps[1:]:
-            FirstZero(launches, gap).require_none(window[1])
-        self._taken[search.bits] = search.taken
-        return window
-
-
-@dataclass
-class Launches:
-    """All flights from a box of states, for all parameters of a box."""
-
-    flight: Flight
-    states: Sequence[Enclosure]
-    parameters: Sequence[Enclosure]
-
-    def __post_init__(self) -> None:
-        self._partial = Partial(self.flight.state)
-
-    def on(self, roots: Sequence[int], t: Enclosure) -> list[Enclosure]:
-        """Enclose formulas at times."""
-        x = [*self.states, t]
-        return self.flight.formulas.enclose(tuple(roots), x, self.parameters, self._partial)
-
-    @cached_property
-    def coarse(self) -> Launches:
-        """These flights and some around, in few bits."""
-        if self.states[0].bits <= _COARSE:
-            return self
-        sides = (
-            [Enclosure.of(*x.range, _COARSE) for x in xs] for xs in (self.states, self.parameters)
-        )
-        return Launches(self.flight, *sides)
-
-    @cached_property
-    def _inputs(self) -> list[Enclosure]:
-        return [*self.states, *self.parameters]
-
-    @cached_property
-    def wide(self) -> list[int]:
-        """The places of those states and parameters that are no points."""
-        return [k for k, side in enumerate(self._inputs) if side.hi - side.lo > 1]
-
-    @cached_property
-    def middle(self) -> Launches:
-        """The flight in the middle of these sides."""
-        middle = list(self._inputs)
-        for k in self.wide:
-            m = (middle[k].lo + middle[k].hi) >> 1
-            middle[k] = Enclosure(m, m, middle[k].bits)
-        n = self.flight.state
-        return Launches(self.flight, middle[:n], middle[n:])
-
-    @cached_property
-    def steps(self) -> list[Enclosure]:
-        """How far these sides reach from there."""
-        return [self._inputs[k] - self.middle._inputs[k] for k in self.wide]
-
-
-@dataclass
-class Impact:
-    """When all flights from a box end."""
-
-    launches: Launches
-    time: Enclosure
-
-    @classmethod
-    def sharp(cls, launches: Launches, window: Range, enough: int = 0) -> Impact:
-        """Enclose the only zero of the gap in a window where gap_t < 0, by Newton's operator.
-
-        From the middle of what is known; for a box from both ends, plainly and then by the mean
-        value form; while that gains a part of it, and more than `enough` is left.
-        """
-        t, is_box = Enclosure.of(*window, launches.states[0].bits), bool(launches.wide)
-        for is_plain in (True, False)[: 1 + is_box]:
-            width = 2 * (t.hi - t.lo)
-            while t.hi - t.lo > enough and _ENOUGH * (width - t.hi + t.lo) > width:
-                width, middle = t.hi - t.lo, (t.lo + t.hi) >> 1
-                t = _newton(launches, t, is_plain, *((t.lo, t.hi) if is_box else (middle,)))
-        return cls(launches, t)
-
-
-def _newton(launches: Launches, t: Enclosure, is_plain: bool, *starts: int) -> Enclosure:
-    """Return what Newton's operator leaves of times, from some of them.
-
-    For x in X, s the start: gap(x, t) = 0 = gap(x, s) + gap_t (t - s), gap_t on X x T. gap(x, s) is
-    enclosed directly, and by gap(m, s) + gap_x (x - m), m the middle (mean value theorem).
-    """
-    gap, rate = launches.flight.gaps[0], _fall(launches, t)
-    slopes = launches.flight.slopes(gap.orders[0], launches.wide)[:-1]
-    for start in starts:
-        s = Enclosure(start, start, t.bits)
-        if is_plain:
-            (value,) = launches.on(gap.orders[:1], s)
-        else:
-            (value,) = launches.middle.on(gap.orders[:1], s)
-            height, *row = launches.on((gap.orders[0], *slopes), s)
-            value = height.meet(add(value, row, launches.steps))
-        t = t.meet(s - value / rate)
-    return t
-
-
-def _fall(launches: Launches, t: Enclosure) -> Enclosure:
-    """Enclose gap_t at times, and require that it is < 0."""
-    gap = launches.flight.gaps[0]
-
-    def gap_of(time: Range, order: int) -> Enclosure:
-        return launches.on(gap.orders[order : order + 1], Enclosure.of(*time, t.bits))[0]
-
-    (rate,) = launches.on(gap.orders[1:2], t)
-    if rate.hi >= 0:
-        rate = fall(gap_of, t.range)
-    if rate.hi >= 0:
-        raise Unproved(f"the impact is not proved transversal, {shown(launches.states)}")
-    return rate
-
-
-def _within(x: Sequence[Enclosure], box: Sequence[Enclosure]) -> bool:
-    """Whether a box of at least as many bits lies in another one."""
-    more = x[0].bits - box[0].bits
-    return more >= 0 and all(
-        b.lo << more <= a.lo and a.hi <= b.hi << more for a, b in zip(x, box, strict=True)
-    )
 
 
 # -- reading ---------------------------------------------------------------------------------------
@@ -440,11 +196,10 @@ def _require_explicit(tree: Tree, time: str, orders: Mapping[str, int]) -> None:
         _require_explicit(part, time, orders)
 
 
-def read_gap(placer: Placer, time: str, tree: Tree, launch: Tree | None = None) -> Gap:
+def read_gap(placer: Placer, time: str, tree: Tree) -> Gap:
     """Return a gap with its derivatives, up to the one after the first that is not 0 at launch.
 
-    launch: a formula of that one there, where a plain one encloses it better. Raises Unproved where
-    it is another function, or there is none.
+    Raises Unproved where there is none.
     """
     tape, clock = placer.tape, placer.places[time]
     orders = [placer.place(tree)]
@@ -454,9 +209,5 @@ def read_gap(placer: Placer, time: str, tree: Tree, launch: Tree | None = None) 
         start = tape.moved([orders[order]], {clock: tape.number(0)})[0]
         if not same_form(tape, start, tape.number(0)):
             placer.parts += orders[:-1]
-            plain = start if launch is None else placer.place(launch)
-            if plain != start and not same_form(tape, plain, start):
-                raise Unproved("the gap does not leave 0 so")
-            is_constant = orders[1] == tape.number(0)
-            return Gap(tuple(orders), order, plain, is_constant)
+            return Gap(tuple(orders), order, start, is_constant=orders[1] == tape.number(0))
     raise Unproved("the gap is 0 at launch, with all its first derivatives")

@@ -26,6 +26,7 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Futile
 from proofs.trusted.kernel.enclose import (
     Box,
+    Circle,
     Matrix,
     centre_of,
     enclosed,
@@ -33,7 +34,7 @@ from proofs.trusted.kernel.enclose import (
     multiply,
     point_box,
 )
-from proofs.trusted.kernel.formulas import MAX_VALUES, Circle, Formulas, same_form
+from proofs.trusted.kernel.formulas import MAX_VALUES, Formulas, same_form
 from proofs.trusted.kernel.head import optional, read_head, require_periods
 from proofs.trusted.kernel.lohner import Field, Point, Solutions, linearized, moved
 from proofs.trusted.kernel.section import Gap, Journey, Section, hulls

@@ -6,11 +6,10 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
-from proofs.trusted.kernel.enclose import Enclosures, Matrix, centre_of, enclosed, point_box
+from proofs.trusted.kernel.enclose import Circle, Enclosures, Matrix, centre_of, enclosed, point_box
 from proofs.trusted.kernel.evaluation import Partial, enclose
 from proofs.trusted.kernel.expression import Tape
 from proofs.trusted.kernel.normalform import NormalForms, plus
@@ -30,17 +29,6 @@ from proofs.trusted.numbers import Range
 MAX_VARIABLES = 30
 MAX_VALUES = 20
 FUNCTION_NAME = re.compile(r"(?!N[0-9]*$|[ADM]$)[A-Z][A-Za-z0-9]{0,11}")  # N1, A, M: h-sets
-
-
-class Circle(NamedTuple):
-    """An angle, by its place among the variables; its period, on the tape and as it is written.
-
-    With the period go the values of the parameters in it.
-    """
-
-    place: int
-    root: int
-    period: tuple[str, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,6 +71,13 @@ class Formulas:
         """Enclose the partial derivatives, a row a function, which are proved defined, too."""
         return self._slopes(x, range(len(self.variables)))
 
+    def bend(self, x: Sequence[Enclosure]) -> Enclosure:
+        """Enclose the second derivative of the one value by the one variable."""
+        roots = [self.roots[0]]
+        for _ in range(2):
+            roots.append(self.tape.derivative(roots[-1], 0))
+        return self.enclose(tuple(roots), x)[-1]
+
     def pinned(self) -> Formulas:
         """Return the map with each parameter at the middle of its range."""
         return replace(self, ranges=point_box(centre_of(self.ranges)))
@@ -90,6 +85,14 @@ class Formulas:
     def sensitivity(self, x: Sequence[Enclosure]) -> Matrix:
         """Enclose the derivatives by the parameters."""
         return self._slopes(x, [len(self.variables) + k for k in range(len(self.ranges))])
+
+    def derivative(self, root: int, place: int) -> int:
+        """Return a partial derivative, on the tape."""
+        return self.tape.derivative(root, place)
+
+    def launched(self, states: Sequence[Enclosure], parameters: Sequence[Enclosure]) -> Launched:
+        """Return them for these states and parameters, as functions of the variable after these."""
+        return Launched(self, states, parameters, Partial(len(states)))
 
     def _slopes(self, x: Sequence[Enclosure], by: Sequence[int]) -> Matrix:
         n = len(by)
@@ -119,6 +122,20 @@ class Formulas:
         inputs = (*x, *(parameters or enclosed(self.ranges, bits))) if self.ranges else x
         wanted = (*roots, *self.parts)
         return enclose(self.tape, wanted, inputs, bits, partial)[: len(roots)]
+
+
+@dataclass(frozen=True)
+class Launched:
+    """Formulas of one variable, a time, for all of some states and parameters."""
+
+    formulas: Formulas
+    states: Sequence[Enclosure]
+    parameters: Sequence[Enclosure]
+    partial: Partial
+
+    def on(self, roots: Sequence[int], t: Enclosure) -> list[Enclosure]:
+        """Enclose roots at times."""
+        return self.formulas.enclose(tuple(roots), [*self.states, t], self.parameters, self.partial)
 
 
 def read_formulas(*readers: Reader) -> Formulas:

@@ -10,13 +10,12 @@ from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.enclose import Enclosures
+from proofs.trusted.kernel.enclose import Circle, Enclosures
 from proofs.trusted.kernel.expression import Tape
 from proofs.trusted.kernel.formulas import (
     FUNCTION_NAME,
     MAX_VALUES,
     MAX_VARIABLES,
-    Circle,
     Formulas,
     Placer,
 )

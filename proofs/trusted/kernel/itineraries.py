@@ -116,7 +116,7 @@ def follow(base: StayingSet, slopes: Sequence[SlopeRange], phase: Fraction) -> I
 
 
 def itinerary(context: Context, reader: Reader) -> Itinerary:
-    """Rule `itinerary`: {horseshoe, slopes: names of slope-range steps, phase}.
+    """Rule `itinerary`: {horseshoe, slopes: names of such steps, phase}.
 
     Conclusion: where the phase goes until it leaves I0 and I1, within 10 steps: `follow`.
     """

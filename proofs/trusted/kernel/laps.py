@@ -33,9 +33,9 @@ def turn_of(function: Subject) -> Fraction | None:
     return None if period is None else period.range[0]
 
 
-def shifted(function: Subject, values: Range, turns: int) -> Range:
+def shifted(function: Subject, values: Range, turns: int, bits: int = _BITS) -> Range:
     """Enclose values + so many periods."""
-    period = function.periods(_BITS).get(0)
+    period = function.periods(bits).get(0)
     if period is None:
         return values
     low, high = (period * turns).range

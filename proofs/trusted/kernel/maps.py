@@ -11,15 +11,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import reduce
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure
 from proofs.trusted.kernel.conclusion import Subject
-from proofs.trusted.kernel.enclose import Box, Differentiable, Matrix, integer, multiply
-from proofs.trusted.kernel.flight import read_flight
-from proofs.trusted.kernel.formulas import Circle
-from proofs.trusted.kernel.head import read_function, require_function_name
+from proofs.trusted.kernel.enclose import Box, Circle, Differentiable, Matrix, integer, multiply
 from proofs.trusted.kernel.parametric import Parametric, chained, ranges_of
 
 _MOST_MAPS = 100
@@ -39,6 +36,14 @@ class Map(Subject, Differentiable, Protocol):
     def size(self) -> int: ...
     @property
     def circles(self) -> tuple[Circle, ...]: ...
+
+
+@runtime_checkable
+class Bent(Protocol):
+    """A map of one variable to one value, of which the second derivative is known."""
+
+    def bend(self, x: Sequence[Enclosure]) -> Enclosure:
+        """Enclose the second derivative, for all x in a box."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,16 +112,22 @@ def read_map(name: str, reader: Reader, maps: Mapping[str, Map]) -> Map:
     """Read a function of a file; maps: those before it, of which a composition may be made."""
     if reader.has("maps"):
         return _read_composition(name, reader, maps)
-    if reader.has("field"):
-        from proofs.trusted.kernel.flow import read_flow  # a thousand lines that others do not need
+    if reader.has("field"):  # what a file has none of is not imported
+        from proofs.trusted.kernel.flow import read_flow
 
         return read_flow(name, reader)
     if reader.has("gaps"):
+        from proofs.trusted.kernel.flight import read_flight
+
         return read_flight(name, reader)
+    from proofs.trusted.kernel.head import read_function
+
     return read_function(name, reader)
 
 
 def _read_composition(name: str, reader: Reader, maps: Mapping[str, Map]) -> Composition:
+    from proofs.trusted.kernel.head import require_function_name
+
     (names_of,) = reader.fields("maps")
     require_function_name(reader, name)
     chain: list[Map] = []

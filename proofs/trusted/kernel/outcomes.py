@@ -19,7 +19,8 @@ from proofs.trusted.kernel.enclose import (
     read_box,
 )
 from proofs.trusted.kernel.firstzero import FirstZero, shown
-from proofs.trusted.kernel.flight import LATEST, Flight, Launches
+from proofs.trusted.kernel.flight import Flight
+from proofs.trusted.kernel.returns import LATEST, Launches
 from proofs.trusted.kernel.tails import require_positive
 from proofs.trusted.numbers import Range, show, show_range
 
@@ -74,7 +75,7 @@ def no_impact(context: Context, reader: Reader) -> NoImpact:
         launches = _launches(flight, leaf)
         for gap in flight.gaps:
             FirstZero(launches, gap).require_none(time)
-            require_positive(launches, gap, time)
+            require_positive(flight.formulas, launches, gap, time)
     return NoImpact(flight, box)
 
 

@@ -313,7 +313,7 @@ def _over(arc: ImageArc, cells: Sequence[Range]) -> tuple[int, ...]:
 
 
 def read_part(context: Context, reader: Reader) -> SlopeRange:
-    """Read {slopes: a slope-range step, domain: two of its points}: what it says in between."""
+    """Read {slopes: a step of that rule, domain: two of its points}: what it says in between."""
     name, domain = reader.fields("slopes", "domain")
     whole = context.step(name, SlopeRange)
     METER.get().spend(8 * len(whole.points))
@@ -326,7 +326,7 @@ def read_part(context: Context, reader: Reader) -> SlopeRange:
 def prove_staying_set(context: Context, reader: Reader) -> StayingSet:
     """Rule `staying-set`: {region: [[low, high], ...], cells: [{slopes, domain}], gaps}.
 
-    For a map of the line, or of a circle. slopes: a step of the rule `slopes`, or `slope-range`;
+    For a map of the line, or of a circle. slopes: a step of the rule `slopes`;
     domain: two of its points; gaps: names of steps `image` or `avoids`. Conclusion: `staying_set`.
     """
     region, cells, gaps = reader.fields("region", "cells", "gaps")

@@ -8,7 +8,8 @@ from typing import NamedTuple
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
 from proofs.trusted.kernel.enclose import LARGEST, Enclosures
 from proofs.trusted.kernel.firstzero import Gap, shown
-from proofs.trusted.kernel.flight import Launches
+from proofs.trusted.kernel.formulas import Formulas
+from proofs.trusted.kernel.returns import Launches
 
 _ORDERS = 3  # derivatives of a gap, itself the first, of which one is looked at for ever
 End = tuple[int, int]  # the sign of an infinite end, or 0; units of 2^-bits
@@ -100,9 +101,9 @@ def _infinite(a: End, b: End) -> int:
     return one * two
 
 
-def require_positive(launches: Launches, gap: Gap, since: Fraction) -> None:
+def require_positive(formulas: Formulas, launches: Launches, gap: Gap, since: Fraction) -> None:
     """Raise Unproved unless a gap is > 0 for all t >= T: see the rule `no-impact`."""
-    formulas, bits = launches.flight.formulas, launches.states[0].bits
+    bits = launches.states[0].bits
     begin = rational(since, bits)
     now = launches.on(gap.orders[:_ORDERS], begin)
     time = Ray((0, begin.lo), (1, 0))

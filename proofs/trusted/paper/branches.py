@@ -9,13 +9,14 @@ from functools import cached_property
 from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.flights import FirstImpact, Motion, PlasticMap, lifted
+from proofs.trusted.flights import FirstImpact, Motion, lifted
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import integer
 from proofs.trusted.kernel.gaps import falls
 from proofs.trusted.kernel.laps import Lap
 from proofs.trusted.numbers import Phases, Range, hull, increasing, show_range, within
+from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.parameters import Place
 from proofs.trusted.windows import BITS, DEEPEST, Meetings, clear, leaves, level
 

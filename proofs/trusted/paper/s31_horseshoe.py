@@ -12,7 +12,7 @@ from proofs.trusted.kernel.laps import SlopeRange, signed
 from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Range, ceil_text, within
 from proofs.trusted.parameters import Parameters
-from proofs.trusted.slopes import Avoids, Impact
+from proofs.trusted.slopes import Avoids, Impact, impacts
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
 
@@ -64,7 +64,7 @@ def _bounded(
     margin: how far bounds (low, high) on it are inside; of (high, low) it is how far at most.
     asked: whether a point of I0 or I1 is one of those that the claim is about.
     """
-    for point in found.all(Impact):
+    for point in impacts(found.here):
         slope = _signed_at(of, point)
         if slope and asked(point) and margin(slope[::-1]) < 0:
             return decided(Verdict.REFUTED, point, corrected=horseshoes(found)[:1])
@@ -84,7 +84,7 @@ def _bounded(
 
 def _gap_escapes(of: Parameters, found: Found) -> Decision:
     """H4: the closed gap avoids I, or a phase of the open gap is mapped into I."""
-    for point in found.all(Impact):
+    for point in impacts(found.here):
         if of.gap[0] < point.phase < of.gap[1] and within(point.image, of.interval):
             return decided(Verdict.REFUTED, point, corrected=horseshoes(found)[:1])
     for avoided in found.all(Avoids):

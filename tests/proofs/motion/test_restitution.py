@@ -11,7 +11,7 @@ from proofs.motion.witness import HORIZON
 from proofs.search.rebound import next_state
 from proofs.trusted.equations import closing, launch
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
-from proofs.trusted.oscillator import flight
+from proofs.trusted.oscillator import Oscillator
 from tests.intervals.oracle import ends
 from tests.oracles import motion
 from tests.proofs.trusted.paper import reference
@@ -28,7 +28,7 @@ def true_flight(eta, nu, epsilon, phi, gamma):
 
 def single(phi, gamma, epsilon="0.01", eta="0.2121", nu="-0.2", horizon=HORIZON):
     eta, nu, epsilon, phi, gamma = ((Fraction(x),) * 2 for x in (eta, nu, epsilon, phi, gamma))
-    return flight((eta, nu, epsilon), latest=horizon), (phi, gamma)
+    return Oscillator((eta, nu, epsilon), horizon), (phi, gamma)
 
 
 class Next:
@@ -99,7 +99,7 @@ def test_box_contains_the_images_of_its_states_and_oscillators():
     reach = Fraction(1, 20000)
     epsilons = Fraction("0.005"), Fraction("0.015")
     sides = (ETA - reach, ETA + reach), (NU - reach, NU + reach), epsilons
-    found = Next(flight(sides), (phases, RIGHT))
+    found = Next(Oscillator(sides), (phases, RIGHT))
     random.seed(5)
     for _ in range(20):
         phi, gamma = random.uniform(1.12, 1.14), random.uniform(-0.45, 0)
@@ -111,8 +111,8 @@ def test_box_contains_the_images_of_its_states_and_oscillators():
 
 
 def closing_speed(of, box):
-    eta, nu, phi, gamma = (Enclosure.of(*side, 64) for side in (*of.sides[:2], *box))
-    return closing(launch(of.side, eta, nu, phi), gamma) * of.side
+    eta, nu, phi, gamma = (Enclosure.of(*side, 64) for side in (*of.ranges[:2], *box))
+    return closing(launch(of.formulas.side, eta, nu, phi), gamma) * of.formulas.side
 
 
 @pytest.mark.parametrize(
@@ -137,4 +137,4 @@ def test_a_mass_does_not_come_from_inside_the_table(phi, gamma, possible):
 def test_a_box_that_contains_a_grazing_flight_has_no_smooth_image():
     sides = (ETA, ETA), (NU, NU), (Fraction("0.01"),) * 2
     with pytest.raises(Unproved):
-        Next(flight(sides), ((Fraction("1.19"), Fraction("1.23")), RIGHT))
+        Next(Oscillator(sides), ((Fraction("1.19"), Fraction("1.23")), RIGHT))

@@ -71,9 +71,7 @@ def prover():
 
 
 JOBS = {
-    "slopes": lambda by: by.slopes([Fraction("1.27"), Fraction("1.32")]),
     "avoids": lambda by: by.avoids(PAPER.gap, PAPER.interval),
-    "point": lambda by: by.point(Fraction("1.13")),
 }
 
 

@@ -157,8 +157,7 @@ FALSE = Parameters(
 def false_horseshoe(document: Document) -> None:
     """True images: f(0.752) = 0.0006..., f(0.756) = 0.0106..., f(0.766) = 0.0355..., 0.0455...
 
-    All lie just after phase 0, none in I; but the wide brackets at 0.756 and 0.77 reach back
-    before 2 pi, so that the lower ends of f, mod 2 pi, are near 6.28.
+    All lie just after phase 0, none in I.
     """
     early = ["1", "2", "4", "8", "12", "16", "20", "22", "24", "97/4"]
 
@@ -167,33 +166,23 @@ def false_horseshoe(document: Document) -> None:
         witness = {"phases": [str(x) for x in phases], "times": early + ends}
         return {"rule": "first-impact", "witness": witness}
 
-    def slopes(flight: str, ends: tuple[Fraction, Fraction], *times: str) -> Document:
-        pairs = [[str(Fraction(t)) for t in pair.split()] for pair in times]
-        points = [
-            {"flight": flight, "phase": str(end), "time": pair}
-            for end, pair in zip(ends, pairs, strict=False)
-        ]
-        pieces = [{"flight": flight, "time": pairs[2]}]
-        return {"rule": "slope-range", "witness": {"points": points, "pieces": pieces}}
+    def slopes(ends: tuple[Fraction, Fraction]) -> Document:
+        at = {"eta": [str(FALSE.eta)] * 2, "nu": [str(FALSE.nu)] * 2}
+        points = [str(end) for end in ends]
+        return {"rule": "slopes", "witness": {"function": at, "points": points, "bits": "64"}}
 
     target = [str(end) for end in FALSE.interval]
     document["parameters"] = parameters_to_json(FALSE)
     document["steps"] = {
-        "first-impact-1": impacts(FALSE.left, "24.35", "24.5"),
-        "slope-range-1": slopes(
-            "first-impact-1", FALSE.left, "24.3814 24.3815", "24.3749 24.3875", "24.38 24.3888"
-        ),
-        "first-impact-2": impacts(FALSE.right, "24.34", "24.5"),
-        "slope-range-2": slopes(
-            "first-impact-2", FALSE.right, "24.4022 24.4024", "24.36 24.4085", "24.4 24.41"
-        ),
-        "first-impact-3": impacts(FALSE.gap, "24.375", "24.39", "24.42"),
+        "slopes-1": slopes(FALSE.left),
+        "slopes-2": slopes(FALSE.right),
+        "first-impact-1": impacts(FALSE.gap, "24.375", "24.39", "24.42"),
         "avoids-1": {
             "rule": "avoids",
-            "witness": {"flights": ["first-impact-3"], "target": target},
+            "witness": {"flights": ["first-impact-1"], "target": target},
         },
     }
-    parts = zip(("slope-range-1", "slope-range-2"), (FALSE.left, FALSE.right), strict=True)
+    parts = zip(("slopes-1", "slopes-2"), (FALSE.left, FALSE.right), strict=True)
     cells = [{"slopes": name, "domain": [str(x) for x in part]} for name, part in parts]
     witness = {"region": [target], "cells": cells, "gaps": ["avoids-1"]}
     document["steps"]["staying-set-1"] = {"rule": "staying-set", "witness": witness}

@@ -13,9 +13,9 @@ from proofs.plane.store import opened
 from proofs.trusted.atlas import Region, area, check_atlas
 from proofs.trusted.certificate import SCHEMA as DOCUMENT
 from proofs.trusted.certificate import Malformed, Reader, texts
-from proofs.trusted.flights import PlasticMap
 from proofs.trusted.kernel.coverings import EntropyBound
 from proofs.trusted.kernel.meter import DEFAULT, Exhausted, metered
+from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.paper.beyond.singles import StableSingles
 from proofs.trusted.paper.branches import Branch
 from proofs.trusted.parameters import Place

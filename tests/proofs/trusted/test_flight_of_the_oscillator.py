@@ -1,4 +1,4 @@
-"""The paper's map as data for the kernel: its formulas are those of the equations."""
+"""The paper's maps as data for the kernel: they are those of the equation of motion."""
 
 import random
 from fractions import Fraction
@@ -7,52 +7,102 @@ import pytest
 
 from proofs.trusted import oscillator
 from proofs.trusted.certificate import Malformed, Reader
-from proofs.trusted.equations import arrival, clock, closing, gap, launch_with_restitution
-from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
+from proofs.trusted.equations import AT_LAUNCH, Launch, gap, launch_acceleration
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.covers import Covers, HSet, LocalMap
-from proofs.trusted.kernel.flight import read_gap
-from proofs.trusted.kernel.formulas import on_tape
-from proofs.trusted.kernel.head import read_head
-from proofs.trusted.kernel.trees import formula
-from proofs.trusted.kernel.values import Equal
+from proofs.trusted.kernel.enclose import enclosed
+from proofs.trusted.kernel.flight import read_flight
+from proofs.trusted.kernel.returns import Launches
 from proofs.trusted.rules import find_rule
 from tests.proofs.trusted.kernel.systems import OSCILLATOR
 
-NAMES = ("eta", "nu", "epsilon", "phi", "gamma", "t")
-FORM = OSCILLATOR["motion"][0]["form"]
+TINY = Fraction(1, 10**60)
+SIDES = [{"eta": ["2121/10000"] * 2, "nu": [nu] * 2} for nu in ("-1/5", "1/5")]
+PLASTIC = {
+    "variables": ["phi"],
+    "periods": {"phi": "2*pi"},
+    "time": "t",
+    "motion": [
+        {
+            "name": "q",
+            "form": "(1 + nu*sin(phi))*cos(eta*t) + nu*cos(phi)/eta*sin(eta*t)",
+            "equation": "-eta**2*q",
+            "start": ["1 + nu*sin(phi)", "nu*cos(phi)"],
+        }
+    ],
+    "gaps": ["1 + nu*sin(phi + t) - q"],
+    "values": ["phi + t"],
+}
+CLOSING = "-(eta*gamma + nu*cos(phi))"
+
+
+def flights(sides):
+    """The checker's maps, each with a flight that a file gives, by its equation of motion."""
+    signed = {"-": ("{}", CLOSING), "1": ("-({})", CLOSING[1:])}[sides["nu"][0][0]]
+    for data, more in ((PLASTIC, {}), (OSCILLATOR, {"epsilon": ["1/100", "1/100"]})):
+        gaps = [signed[0].format(data["gaps"][0]), *([signed[1]] if more else [])]
+        # ranges that are points would be numbers: so nearly points
+        wide = {x: [low, str(Fraction(low) + TINY)] for x, (low, _) in (sides | more).items()}
+        given = read_flight("F", Reader(data | {"parameters": wide, "gaps": gaps}))
+        yield oscillator.read_oscillator(Reader(wide)), given
+
+
+def overlap(one, two):
+    return one.lo <= two.hi and two.lo <= one.hi
+
+
+def agree(one, two):
+    return overlap(one, two) and max(one.hi, two.hi) - min(one.lo, two.lo) < 2**40
+
+
+@pytest.mark.parametrize("sides", SIDES)
+def test_the_functions_and_their_derivatives_are_those_of_the_motion(sides):
+    rng = random.Random(5)
+    for own, given in flights(sides):
+        for _ in range(10):
+            states = [Enclosure.of(x, x, 200) for x in (number(rng) for _ in own.variables)]
+            t = Enclosure.of(x := number(rng), x, 200)
+            one, two = (Launches(x, states, enclosed(x.ranges, 200)) for x in (own, given))
+            every = range(len(own.variables) + len(own.ranges))
+            roots = ((*f.gaps[0].orders[:3], *f.outcome) for f in (own, given))
+            for a, b in zip(*roots, strict=True):
+                assert agree(*one.on((a,), t), *two.on((b,), t))
+                slopes = one.on(own.slopes(a, every), t), two.on(given.slopes(b, every), t)
+                assert all(map(agree, *slopes))
+            for a, b in zip(own.gaps, given.gaps, strict=True):
+                start = rational(Fraction(0), 200)
+                assert a.order == b.order
+                assert agree(*one.on((a.launch,), start), *two.on((b.launch,), start))
+
+
+def number(rng):
+    return Fraction(rng.randint(1, 999), 200)
+
+
+@pytest.mark.parametrize("sides", SIDES)
+def test_the_maps_are_those_of_the_motion(sides):
+    for own, given in flights(sides):
+        box = [(Fraction("1.12"), Fraction("1.121")), (Fraction("-0.3"),) * 2][: len(own.variables)]
+        if sides["nu"][0][0] != "-":
+            box = [(Fraction("1.5"), Fraction("1.501")), (Fraction(3),) * 2][: len(own.variables)]
+        x = enclosed(tuple(box), 128)
+        assert all(map(overlap, own.values(x), given.values(x)))
+        for rows in zip(own.jacobian(x), given.jacobian(x), strict=True):
+            assert all(map(overlap, *rows))
+        if len(own.variables) == 1:
+            one, two = own.bend(x), given.bend(x)
+            assert overlap(one, two) and one.hi - one.lo < 1 << 132
 
 
 @pytest.mark.parametrize("side", [1, -1])
-def test_the_formulas_are_the_equations(side):
-    rng = random.Random(side)
-    trees = map(formula, (oscillator.GAP, oscillator.ARRIVAL, oscillator.CLOSING))
-    formulas = on_tape(*trees, variables=NAMES)
-    for _ in range(20):
-        numbers = [Fraction(rng.randint(1, 999), 200) for _ in NAMES]
-        numbers[1] *= side
-        eta, nu, epsilon, phi, gamma, t = x = [Enclosure.of(n, n, 200) for n in numbers]
-        start = launch_with_restitution(side, eta, nu, phi, epsilon=epsilon, gamma=gamma)
-        now = clock(eta, t)
-        own = gap(start, now) * side, arrival(start, now)[1], closing(start, gamma)
-        for one, two in zip(formulas.values(x), own, strict=True):
-            assert one.lo <= two.hi and two.lo <= one.hi
-            assert max(one.hi, two.hi) - min(one.lo, two.lo) < 2**30
-
-
-def test_the_gap_and_the_velocity_are_those_of_the_motion():
-    """By normal forms: x - z for the x that solves x'' = -eta^2 x after the impact, and -x'/eta."""
-    Equal.read(oscillator.GAP, f"{FORM} - (1 + nu*sin(phi + t))").prove()
-    Equal.read(oscillator.ARRIVAL, f"-D({FORM}, t)/eta").prove()
-    Equal.read(f"D({FORM}, t, t)", f"-eta**2*({FORM})").prove()
-
-
-def test_a_launch_that_is_written_otherwise_is_refused():
-    placer = read_head("F", Reader(oscillator._HEAD)).placer()
-    tree = formula(oscillator.GAP)
-    for wrong in ("epsilon*eta*gamma", "0", "2*epsilon*(eta*gamma + nu*cos(phi))"):
-        with pytest.raises(Unproved, match="does not leave 0 so"):
-            read_gap(placer, "t", tree, formula(wrong))
+@pytest.mark.parametrize("kick", [None, Fraction(3, 7)])
+def test_how_the_gap_leaves_0_at_launch(side, kick):
+    start = Launch(side, Fraction(1, 5), Fraction(1, 3), Fraction(-2, 9), kick)
+    assert gap(start, AT_LAUNCH, 0) == 0
+    assert gap(start, AT_LAUNCH, 1) == (0 if kick is None else side * kick)
+    if kick is None:
+        assert gap(start, AT_LAUNCH, 2) == launch_acceleration(start)
 
 
 def differential(phases, gammas, **change):
@@ -93,7 +143,7 @@ def related(centre, nu):
     half, zero = Fraction(1, 2), Fraction(0)
     node = HSet((centre, zero), ((half, zero), (zero, half)), ((2, zero), (zero, 2)))
     sides = [(x, x) for x in (Fraction("0.2121"), nu, Fraction("0.01"))]
-    return Covers(LocalMap(oscillator.flight(sides), 1, node, node, (4,)), 1)
+    return Covers(LocalMap(oscillator.Oscillator(sides), 1, node, node, (4,)), 1)
 
 
 def graph(*relations):

@@ -106,12 +106,12 @@ def test_an_older_file_is_refused_in_a_line(tmp_path, capsys):
 
 
 def test_a_cell_that_is_a_point_is_no_cell():
-    """[x, x] where f' is bounded between points of a slope-range step."""
+    """[x, x] where f' is bounded between points of a step of the rule slopes."""
     document = copy.deepcopy(committed("horseshoe"))
     name, step = next(
-        (name, step) for name, step in document["steps"].items() if step["rule"] == "slope-range"
+        (name, step) for name, step in document["steps"].items() if step["rule"] == "slopes"
     )
-    point = str(Fraction(step["witness"]["points"][0]["phase"]))
+    point = str(Fraction(step["witness"]["points"][0]))
     cell = {"slopes": name, "domain": [point, point]}
     for rule, witness in (
         ("stable-orbit", {"cells": [cell]}),

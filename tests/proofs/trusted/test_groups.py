@@ -112,8 +112,8 @@ def test_nothing_in_an_entry_is_believed(group):
 
 
 NEEDED = {  # the rules of whatever is needed, where there are other witnesses or more is said
-    "H2": "point",
-    "H5": "slope-range",
+    "H2": "differential",
+    "H5": "slopes",
     "N1": "",
     "N3": "horseshoe",
     "N4": "barred-word",

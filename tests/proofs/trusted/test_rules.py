@@ -16,11 +16,13 @@ from hypothesis import strategies as st
 from mpmath import mp, mpf
 
 from proofs.trusted.certificate import Malformed
-from proofs.trusted.flights import FirstImpact, Motion, phase_after
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.enclose import enclosed
+from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.rules import RULES
-from proofs.trusted.slopes import comes_to
+from proofs.trusted.slopes import comes_to, impacts
+from proofs.trusted.slopes import impact as impact_of
 from tests.proofs.trusted.paper import reference
 from tests.proofs.trusted.paper.steps import apply as step
 from tests.proofs.trusted.paper.steps import exact
@@ -49,21 +51,6 @@ def times(*values):
 def flight_time(phase):
     """The true time of the first impact, correct to some 40 digits."""
     return reference.first_impact(mpf("0.2121"), mpf("-0.2"), mpf(phase))[0]
-
-
-def bracket(phase, reach="1e-20"):
-    centre = exact(flight_time(phase))
-    return [str(centre - Fraction(reach)), str(centre + Fraction(reach))]
-
-
-def near_115():
-    """First impacts of all phases in [1.14, 1.15], whose times lie in [25.27, 25.33]."""
-    return step("first-impact", {"phases": times("1.14", "1.15"), "times": [*TO_25, "51/2"]})
-
-
-@pytest.fixture
-def known():
-    return {"impact": near_115()}
 
 
 def refused(rule, witness, known=None, reason=None, error=(Unproved, Malformed)):
@@ -132,12 +119,6 @@ def test_a_later_impact_is_not_taken_for_the_first(skipped):
     found = step("first-impact", {"phases": times("1.15", "1.15"), "times": TO_25 + times(*tail)})
     assert not found.transversal
     assert found.windows[0][0] <= exact(flight_time("1.15")) <= found.windows[0][1]
-    refused(
-        "point",
-        {"flight": "impact", "phase": "23/20", "time": times(56, "56.5")},
-        {"impact": found},
-        "transversal",
-    )
 
 
 @pytest.mark.parametrize("end", ["25.4", "56.5", "57", "60", "400"])
@@ -191,14 +172,19 @@ def test_phases_on_both_sides_of_grazing_are_not_transversal(phases):
     assert not found.transversal
 
 
-# -- point -----------------------------------------------------------------------------------------
+# -- f at a phase, and on an interval --------------------------------------------------------------
+
+F = {"eta": ["2121/10000"] * 2, "nu": ["-1/5"] * 2}
+
+
+def at_phase(phase, turns="4", bits="128"):
+    box = [times(phase, phase)]
+    return step("differential", {"function": F, "box": box, "turns": [turns], "bits": bits})
 
 
 @pytest.mark.parametrize("phase", ["1.14", "1.1425", "1.15"])
-def test_point(known, phase):
-    found = step(
-        "point", {"flight": "impact", "phase": times(phase)[0], "time": bracket(phase)}, known
-    )
+def test_a_phase(phase):
+    found = impact_of(at_phase(phase))
     flight, image = reference.first_impact(mpf("0.2121"), mpf("-0.2"), mpf(phase))
     slope = exact(reference.slope(mpf("0.2121"), mpf("-0.2"), mpf(phase), flight))
     near = Fraction(1, 10**17)
@@ -208,87 +194,49 @@ def test_point(known, phase):
     assert found.image[0] <= exact(image) <= found.image[1] < found.image[0] + near
 
 
-# -- phases mod 2 pi -------------------------------------------------------------------------------
+@pytest.mark.parametrize("turns", ["3", "5", "0"])
+def test_a_phase_with_other_turns_says_nothing_of_f(turns):
+    found = at_phase("1.14", turns)
+    with pytest.raises(Unproved, match="straddles"):
+        impact_of(found)
+    assert impacts([found]) == []
 
 
-@pytest.mark.slow
-@given(numbers, numbers, st.fractions(0, 3, max_denominator=1000))
-def test_phase_after_encloses_the_phase(phase, time, width):
-    low, high = phase_after(phase, (time, time + width), 100)
-    true = (phase + time) % TURN
-    slack = Fraction(1, 10**20)
-    assert any(low <= true + k * TURN <= low + slack for k in (0, 1))  # 1 where it is undecided
-    assert high - low < width + slack
+def test_only_f_at_one_phase_is_a_phase():
+    wide = replace(at_phase("1.14"), box=((Fraction("1.14"), Fraction("1.15")),))
+    with pytest.raises(Unproved, match="one phase"):
+        impact_of(wide)
 
 
-@pytest.mark.parametrize("turns", [1, 2, 4, 100])
-def test_phase_after_next_to_whole_turns(turns):
-    """A bracket that contains 2 pi k stays one interval, up to and beyond 2 pi."""
-    centre = exact(2 * mp.pi * turns)
-    low, high = phase_after(Fraction(0), (centre - Fraction(1, 100), centre + Fraction(1, 100)), 80)
-    assert high - low < Fraction("0.0201")
-    assert low < exact(2 * mp.pi) - Fraction("0.0099") and high > exact(2 * mp.pi) + Fraction(
-        "0.0099"
-    )
-    low, high = phase_after(Fraction(0), (centre, centre), 64)
-    assert 0 <= low <= exact(2 * mp.pi) <= high
+@pytest.mark.parametrize(
+    ("phase", "reason"),
+    [("4", "right after launch"), ("4.7", "right after launch"), ("1.57", "before the time")],
+)
+def test_a_phase_that_sticks_or_never_impacts_is_refused(phase, reason):
+    with pytest.raises(Unproved, match=reason):
+        enclosed_at = enclosed(((Fraction(phase),) * 2,), 64)
+        PlasticMap(PAPER.place, Fraction(100)).values(enclosed_at)
 
 
-# -- slope-range -----------------------------------------------------------------------------------
+def between_114_and_115(**change):
+    witness = {"function": F, "points": ["57/50", "23/20"], "bits": "64"}
+    return step("slopes", witness | change)
 
 
-def slope_witness():
-    ends = ["57/50", "23/20"]
-    return {
-        "points": [
-            {"flight": "impact", "phase": x, "time": bracket(str(float(Fraction(x))))} for x in ends
-        ],
-        "pieces": [{"flight": "impact", "time": times("25.27", "25.33")}],
-    }
-
-
-def test_slope_range_contains_the_slopes_between(known):
-    found = step("slope-range", slope_witness(), known)
+def test_slopes_contain_the_slopes_between():
+    found = between_114_and_115()
     ((low, high),) = found.pieces
     for share in range(11):
         phase = mpf("1.14") + mpf(share) / 1000
         flight = reference.first_impact(mpf("0.2121"), mpf("-0.2"), phase)[0]
-        assert low < exact(reference.slope(mpf("0.2121"), mpf("-0.2"), phase, flight)) < high
+        assert low <= exact(reference.slope(mpf("0.2121"), mpf("-0.2"), phase, flight)) <= high
+    assert low == found.slopes[0][0] and high == found.slopes[1][1]  # as f'' > 0
 
 
-def test_a_flight_of_a_part_of_a_piece_is_no_flight_of_it(known):
-    short = replace(known["impact"].motion, phases=(Fraction("1.14"), Fraction("1.145")))
-    witness = slope_witness()
-    witness["pieces"][0]["flight"] = "short"
-    short = {**known, "short": replace(known["impact"], motion=short)}
-    refused("slope-range", witness, short, "about other phases")
-
-
-def test_curvature():
-    """f''(1.15), from differences of the root of equation (10)."""
-    reach = Fraction(1, 10**30)
-    centre = exact(flight_time("1.15"))
-    phases = (Fraction("1.15"), Fraction("1.15"))
-    motion = Motion(PAPER.place, phases, 200)
-    low, high = motion.curvature((centre - reach, centre + reach)).range
-
-    def time(phase):
-        def gap(t):
-            return reference.left_side_10(mpf("0.2121"), mpf("-0.2"), phase, t)
-
-        return mp.findroot(gap, IMPACT_GUESS)
-
-    true = exact(mp.diff(time, mpf("1.15"), 2))
-    assert low - Fraction(1, 10**12) < true < high + Fraction(1, 10**12)
-    assert high - low < Fraction(1, 10**20)
-
-
-def test_slope_piece_at_a_grazing_phase_has_no_bounded_slope():
-    """gap' vanishes somewhere on the bracket: the quotient is refused."""
-    wide = FirstImpact(PAPER.place, near_115().motion, ((Fraction(25), Fraction(27)),), True)
-    witness = slope_witness()
-    witness["pieces"][0]["time"] = times("25", "26")
-    refused("slope-range", witness, {"impact": wide}, None, Unproved)
+@pytest.mark.parametrize("points", [("1.19", "1.21"), ("1.1", "1.3"), ("3.3", "3.4")])
+def test_slopes_across_a_graze_or_where_sticking_begins_are_refused(points):
+    with pytest.raises(Unproved, match=r"graze|launch|transversal"):
+        between_114_and_115(points=times(*points))
 
 
 # -- avoids ----------------------------------------------------------------------------------------
@@ -389,7 +337,7 @@ def test_what_meets_is_never_missed(time, width, start, length):
 
 S0 = Fraction("0.448989707406679150108086734513027704911016535")
 PRINTED = times("0.1905", "0.2381")
-S0_GUESS, IMPACT_GUESS = "0.4489897074066791501", "25.3258280674639865318"
+S0_GUESS = "0.4489897074066791501"
 
 
 def root(low, high, ratios=PRINTED):
@@ -417,11 +365,6 @@ def root_of_moran():
     return mp.findroot(lambda s: mpf("0.1905") ** s + mpf("0.2381") ** s - 1, S0_GUESS)
 
 
-def impact():
-    eta, nu, phase = mpf("0.2121"), mpf("-0.2"), mpf("1.15")
-    return mp.findroot(lambda t: reference.left_side_10(eta, nu, phase, t), IMPACT_GUESS)
-
-
 def thin(find, shift):
     """A bracket 10^-1300 wide, beside a number that `find` computes to 1400 digits."""
     low = to_1400_digits(find) + shift * Fraction(1, 10**1300)
@@ -433,11 +376,9 @@ def thin(find, shift):
 @pytest.mark.parametrize(
     "shift", [2, *(pytest.param(shift, marks=pytest.mark.slow) for shift in (-2, 0))]
 )
-def test_an_undecided_sign_is_no_sign(known, shift):
-    """At such brackets F and the gap are far below the checker's last place."""
+def test_an_undecided_sign_is_no_sign(shift):
+    """At such brackets F is far below the checker's last place."""
     refused("moran-root", {"ratios": PRINTED, "root": thin(root_of_moran, shift)}, None, "signs")
-    witness = {"flight": "impact", "phase": "23/20", "time": thin(impact, shift)}
-    refused("point", witness, known, "signs")
 
 
 # -- the form of every witness ---------------------------------------------------------------------

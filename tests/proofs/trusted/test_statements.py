@@ -5,7 +5,6 @@ from fractions import Fraction
 
 import pytest
 
-from proofs.trusted.flights import PlasticMap
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.images import ImageArc, image_arc
 from proofs.trusted.kernel.laps import SlopeRange
@@ -15,12 +14,12 @@ from proofs.trusted.numbers import (
     TURN,
     Phase,
     Phases,
-    agree,
     ceil_text,
     floor_text,
     show,
     show_range,
 )
+from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s32_sets.moran import Digits, NoGap
 from proofs.trusted.parameters import PAPER, Parameters
@@ -490,10 +489,6 @@ def test_show(value, text):
 def test_printed_bounds_are_rounded_outward(value, floor, ceiling):
     assert floor_text(Fraction(value)) == floor
     assert ceil_text(Fraction(value)) == ceiling
-
-
-def test_agree_counts_digits():
-    assert agree(span("100", "100.01"), 4) and not agree(span("100", "100.011"), 4)
 
 
 # -- parameters ------------------------------------------------------------------------------------

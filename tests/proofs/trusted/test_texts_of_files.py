@@ -36,6 +36,8 @@ WORDS = {  # the fields that are texts, and which: None for those that only the 
     "Formulas.variables": NAME,
     "Formulas.name": r"[A-Z][A-Za-z0-9]{0,11}|",
     "Formulas.given": None,
+    "Equations.name": "f|F",
+    "Equations.variables": "phi|gamma",
     "Circle.period": None,
     "Composition.name": r"[A-Z][A-Za-z0-9]{0,11}",
     "Motion.name": NAME,

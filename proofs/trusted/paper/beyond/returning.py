@@ -8,7 +8,6 @@ from fractions import Fraction
 from math import prod
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.flights import PlasticMap
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.kernel.context import Context
@@ -24,6 +23,7 @@ from proofs.trusted.numbers import (
     show,
     show_range,
 )
+from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.paper.s34_circle.landing import Lands, NeverImpacts, Separation
 
 _MOST_NAMED = 12  # cells
@@ -261,7 +261,7 @@ def prove_sticking_motion(
 ) -> StickingMotion | ReturningMotion | SticksOnce:
     """Rule `sticking-motion`: {separation, cells: [{slopes, domain}], beyond, landing}.
 
-    separation, landing: names of steps; slopes: a slope-range step; domain: two of its points;
+    separation, landing: names of steps; slopes: a step of that rule; domain: two of its points;
     beyond: null, or as a cell; landing: or null. Conclusion: `sticking_motion`; `sticks_once` where
     landing is a `stable-orbit` or a `never-impacts` step.
     """

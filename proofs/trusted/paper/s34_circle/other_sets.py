@@ -10,7 +10,7 @@ from fractions import Fraction
 from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Phases, Range, show_range
 from proofs.trusted.parameters import PAPER, Parameters
-from proofs.trusted.slopes import Impact
+from proofs.trusted.slopes import impacts
 from proofs.trusted.verdicts import Decide, Decision, Found, Row, Verdict, decided, undecided
 
 PRINTED = Phases(Fraction("1.32"), Fraction("1.48"))
@@ -51,7 +51,7 @@ def _same_graph(of: Parameters, found: Found) -> Decision:
     """
     del of
     sets = found.all(StayingSet)
-    ends = [each for each in found.all(Impact) if each.phase in PRINTED]
+    ends = [each for each in impacts(found.here) if each.phase in PRINTED]
     for each in sets:
         if each.region == (PRINTED,) and len(each.orbit) > 1:
             around = [x for x in sets if not x.orbit]

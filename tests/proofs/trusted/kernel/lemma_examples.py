@@ -285,7 +285,31 @@ def outcomes():
     return file
 
 
+def trapping():
+    """Two boxes side by side whose images lie across their common side; a map of a cylinder."""
+    turning = {"variables": ["a", "v"], "periods": {"a": "2*pi"}}
+    file = Lemmas(
+        {
+            "F": (["x", "y"], ["x/4 + 3/4", "(x + sin(y))/4 + 1/8"]),
+            "G": {**turning, "values": ["a + v", "v/2 + sin(a)/4"]},
+        }
+    )
+
+    def image(function, box, bounds):
+        witness = {"function": function, "box": box, "tree": None, "bounds": bounds}
+        return file.add("image", witness)
+
+    left, right = ([[low, high], ["0", "1"]] for low, high in (("0", "1"), ("1", "2")))
+    first = image("F", left, [["3/4", "1"], ["1/10", "3/5"]])
+    last = image("F", right, [["1", "5/4"], ["3/10", "7/8"]])
+    ring = image("G", [["0", "7"], ["-1", "1"]], [["-1", "8"], ["-4/5", "4/5"]])
+    for images in ([first, last], [ring]):
+        file.add("trapping", {"images": images})
+    return file
+
+
 EXAMPLES = {
+    "trapping": trapping,
     "outcomes": outcomes,
     "lines": Lines,
     "rectangles": rectangles,

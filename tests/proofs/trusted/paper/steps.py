@@ -9,8 +9,8 @@ from mpmath import mp
 
 from proofs.search.evidence import Evidence
 from proofs.trusted.certificate import Reader
-from proofs.trusted.flights import PlasticMap
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.rules import find_rule
 from tests.oracles.edits import needed

@@ -12,7 +12,7 @@ import pytest
 
 from proofs.trusted.certificate import Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.oscillator import flight
+from proofs.trusted.oscillator import Oscillator
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s34_circle.attractors import TwoAttractors
 from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
@@ -62,7 +62,7 @@ def test_nothing_is_decided_without_any_part():
 
 def at(cycle, *ends, **sides):
     place = replace(cycle.place, epsilon=tuple(map(Fraction, ends)), **sides)
-    return replace(cycle, function=flight(place.sides))
+    return replace(cycle, function=Oscillator(place.sides))
 
 
 def test_two_attractors_need_one_orbit_and_the_motion():

@@ -12,7 +12,6 @@ from intervals import Undecided
 from proofs.search.beyond import Budget
 from proofs.shell.groups import produce
 from proofs.trusted import oscillator
-from proofs.trusted.flights import PlasticMap
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.horseshoe import Horseshoe
 from proofs.trusted.kernel.images import ImageArc, image_arc, image_range, inside
@@ -21,6 +20,7 @@ from proofs.trusted.kernel.loops import StableOrbit, stable_orbit
 from proofs.trusted.kernel.stable import StableCycle
 from proofs.trusted.kernel.staying import staying_set
 from proofs.trusted.numbers import Phase, Phases
+from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.paper import BEYOND, find
 from proofs.trusted.paper.beyond.attractors import AtRest, Leaves, NeverSticks, OnlyTouches
 from proofs.trusted.paper.beyond.flights import FlightsEnd
@@ -54,7 +54,7 @@ def around(value):
 
 
 def affine(low, high, first, last, at=HERE):
-    """What a slope-range step says of a line from (low, first) to (high, last)."""
+    """What a step of the rule slopes says of a line from (low, first) to (high, last)."""
     low, high, first, last = map(F, (low, high, first, last))
     slope = (last - first) / (high - low)
     bounds = slope - F(1, 1000), slope + F(1, 1000)
@@ -581,7 +581,7 @@ def rebounding(impacts, low, high):
 
 
 def about(impact, place):
-    return replace(impact, function=oscillator.flight(place.sides))
+    return replace(impact, function=oscillator.Oscillator(place.sides))
 
 
 def imaged(impact, phase=None, velocity=None):

@@ -339,15 +339,19 @@ def test_launches_that_land_only_at_some_oscillators():
 
 
 def test_a_cell_that_passes_phase_0_is_no_set_in_order():
-    known = premises(made_at(ZERO)).known
-    (name,) = [x for x in known if x.startswith("first-impact")]
-    with pytest.raises(Unproved, match="no interval of phases"):
-        find_rule("branch")(Context(ZERO, {}, known), Reader({"flights": [name], "turn": "3"}))
-    with pytest.raises(Unproved, match="no interval of phases"):
-        avoids(Context(ZERO, {}, known), Reader({"flights": [name], "target": ["1", "2"]}))
     made, steps, _ = at(ZERO)
-    steps[0]["witness"]["phases"][1] = "13"
-    rejected(made, "between 0 and 4 pi", Malformed)
+    phases = tuple(map(F, steps[0]["witness"]["points"]))
+    times = times_for(FlightBox.plastic(ZERO, phases), 26.0)
+    witness = {"phases": texts(phases), "times": texts(times)}
+    known = {"flight": first_impact(Context(ZERO), Reader(witness))}
+    with pytest.raises(Unproved, match="no interval of phases"):
+        find_rule("branch")(Context(ZERO, {}, known), Reader({"flights": ["flight"], "turn": "3"}))
+    with pytest.raises(Unproved, match="no interval of phases"):
+        avoids(Context(ZERO, {}, known), Reader({"flights": ["flight"], "target": ["1", "2"]}))
+    with pytest.raises(Malformed, match="between 0 and 4 pi"):
+        first_impact(Context(ZERO), Reader(witness | {"phases": [witness["phases"][0], "13"]}))
+    steps[0]["witness"]["points"][0] = "0"
+    rejected(made, "right after launch")
 
 
 @pytest.mark.parametrize(("low", "holds"), [("6.04543", True), ("6.0454", False)])

@@ -19,12 +19,13 @@ from proofs.motion.witness import HORIZON
 from proofs.search.s34_chaos import prove_entropy
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import Malformed
-from proofs.trusted.flights import Motion, PlasticMap
+from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.coverings import EntropyBound
 from proofs.trusted.kernel.laps import SlopeRange
 from proofs.trusted.kernel.staying import staying_set
 from proofs.trusted.numbers import Phase, Phases
+from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.paper import find
 from proofs.trusted.paper.branches import Branch
 from proofs.trusted.paper.s34_circle.other_sets import PRINTED

@@ -20,10 +20,10 @@ from proofs.search import s34_circle as circle
 from proofs.search.steps import Prover
 from proofs.shell.groups import decide, wanted
 from proofs.trusted.certificate import Malformed
-from proofs.trusted.flights import PlasticMap
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Phase, Phases
+from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s34_circle.absorption import UNIT, Absorption, Sink
 from proofs.trusted.paper.s34_circle.cells import Cell, Inverse, _links, absorbed, in_order

@@ -176,14 +176,12 @@ OWN += ["moran-root", "itinerary", "staying-set", "covering-graph", "stable-orbi
 ACCEPTED = {  # what may be done to which field, in some places; all else is refused
     "first-impact": "phases tighter narrowed looser aside collapsed nudged moved put_beside "
     "put_to_1; times dropped nudged moved put_beside put_to_1",
-    "point": "time tighter looser widened nudged put_beside",
-    "slope-range": "phase nudged; time looser nudged moved",
     "avoids": "flights dropped; target tighter narrowed nudged put_beside",
     "moran-root": "ratios turned; root tighter looser widened",
     "itinerary": "slopes dropped swapped doubled_in_place added turned another; phase moved "
     "put_to_0 put_to_1",
     "dimension": "hull nudged; words turned put_to_0 put_to_1; rho nudged moved; arcs moved "
-    "put_alike; paths dropped nudged put_to_0; radii tighter narrowed looser aside collapsed "
+    "put_alike; paths dropped nudged moved put_to_0; radii tighter narrowed looser aside collapsed "
     "turned nudged moved put_beside; nodes moved put_alike; exponent nudged; growth nudged "
     "put_to_1; test dropped swapped doubled_in_place added nudged moved put_beside put_to_0 "
     "put_to_1; bits moved",

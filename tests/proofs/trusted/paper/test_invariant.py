@@ -11,7 +11,6 @@ import pytest
 from proofs.search.s32_sets import prove
 from proofs.trusted.certificate import Malformed, Reader
 from proofs.trusted.files import render
-from proofs.trusted.flights import PlasticMap
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.itineraries import Itinerary, follow
@@ -19,6 +18,7 @@ from proofs.trusted.kernel.laps import SlopeRange
 from proofs.trusted.kernel.meter import Exhausted, metered
 from proofs.trusted.kernel.staying import StayingSet, prove_staying_set
 from proofs.trusted.numbers import Phase, Phases
+from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.paper.s32_sets.invariant import ROWS, InvariantSet, staying
 from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.verdicts import Found, Verdict
@@ -82,7 +82,7 @@ BASE = horseshoe(sets(("1", "1.2"), ("1.3", "1.4")))
 
 
 def known(*pairs, at=PAPER.place):
-    """f at points, as a slope-range step has it."""
+    """f at points, as a step of the rule slopes has it."""
     images = tuple(Phase(Fraction(a), Fraction(b)) for _, (a, b) in pairs)
     nothing = (Fraction(0), Fraction(9))
     return SlopeRange(

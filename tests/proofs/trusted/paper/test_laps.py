@@ -14,9 +14,9 @@ from itertools import product
 import pytest
 
 from proofs.trusted.certificate import Malformed
-from proofs.trusted.flights import PlasticMap
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.coverings import EntropyBound, Weighted
+from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s34_circle.cycles import Coding, Cycles, Outer
 from proofs.trusted.paper.s34_circle.expansion import (

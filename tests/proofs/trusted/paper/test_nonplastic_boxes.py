@@ -10,7 +10,7 @@ from proofs.trusted.certificate import Malformed, Reader, parameters_from_json
 from proofs.trusted.files import parameters_to_json
 from proofs.trusted.kernel.differential import Differential
 from proofs.trusted.kernel.rates import Rates
-from proofs.trusted.oscillator import flight
+from proofs.trusted.oscillator import Oscillator
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s33_restitution.horseshoes import RectangleHorseshoe
 from proofs.trusted.parameters import PAPER, Place
@@ -105,7 +105,7 @@ def state(phi, gamma, image, at=EXACT):
     reach = Fraction(1, 1000)
     phase = Fraction(image) - reach, Fraction(image) + reach
     box, image = (pair_of(phi, phi), pair_of(gamma, gamma)), (phase, pair_of(-1, 0))
-    return Differential(flight(at.sides), box, (0,), image, STEEP)
+    return Differential(Oscillator(at.sides), box, (0,), image, STEEP)
 
 
 BARRED = word("11111")

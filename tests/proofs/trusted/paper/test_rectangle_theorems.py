@@ -14,7 +14,7 @@ from proofs.trusted.kernel.rates import Cone, Rates, rates
 from proofs.trusted.kernel.rectangles import Rectangle
 from proofs.trusted.kernel.words import BarredWord, never_ends
 from proofs.trusted.numbers import Phases
-from proofs.trusted.oscillator import flight
+from proofs.trusted.oscillator import Oscillator
 from proofs.trusted.paper.s33_restitution.horseshoes import (
     HorseshoeFamily,
     RectangleHorseshoe,
@@ -44,7 +44,7 @@ def prove(rule, known, **witness):
 def moved(conclusion, place):
     """The same about other oscillators."""
     if isinstance(conclusion, Horseshoe | BarredWord | Rectangle | Differential):
-        return replace(conclusion, function=flight(place.sides))
+        return replace(conclusion, function=Oscillator(place.sides))
     return replace(conclusion, at=place)
 
 
@@ -59,7 +59,7 @@ RATES = Rates(Fraction(5), Fraction(1, 10))
 def general(boxes=BOXES, arrows=ALL, place=HERE, is_rising=True, is_complete=True, cone=None):
     known = RATES if cone is None else RATES._replace(cone=cone)
     return Horseshoe(
-        flight(place.sides), boxes, arrows, Fraction(1, 8), known, is_rising, is_complete
+        Oscillator(place.sides), boxes, arrows, Fraction(1, 8), known, is_rising, is_complete
     )
 
 
@@ -230,7 +230,7 @@ PRINTED = Strips(Phases(*PAPER.left), Phases(*PAPER.right), PAPER.velocities)
 
 def printed(phases, left="1.10", right="1.33", place=EXACT, derivative=STEEP):
     """What could be known about F on a rectangle: on the printed ones, a horseshoe."""
-    velocity, map_ = pair_of("-0.43", "-0.23"), flight(place.sides)
+    velocity, map_ = pair_of("-0.43", "-0.23"), Oscillator(place.sides)
     edges = tuple((pair_of(end, end), velocity) for end in (left, right))
     box, image = (pair_of(*phases), PAPER.velocities), (pair_of(*sorted((left, right))), velocity)
     return Rectangle(map_, box, (0,), (Differential(map_, box, (0,), image, derivative),), edges)
@@ -238,7 +238,7 @@ def printed(phases, left="1.10", right="1.33", place=EXACT, derivative=STEEP):
 
 def word(symbols, place=EXACT, sets=PRINTED):
     symbols = tuple(map(int, symbols))
-    return BarredWord(flight(place.sides), sets.boxes, symbols, Fraction(1, 100))
+    return BarredWord(Oscillator(place.sides), sets.boxes, symbols, Fraction(1, 100))
 
 
 V1 = printed(PAPER.left, "1.10", "1.30")

@@ -1,0 +1,65 @@
+"""How boxes are divided until what a map does on their parts is seen."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from itertools import islice
+from typing import Any
+
+from proofs.methods.formulas import Tree
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
+from proofs.trusted.kernel.covers import LocalMap
+from proofs.trusted.kernel.enclose import Box, Differentiable, attempts, enclosed
+from proofs.trusted.kernel.flow import Flow
+
+_BITS = 64
+_STRIPS, _LEAST = 16, Fraction(1, 2**20)
+
+
+def holds(map_: Differentiable, box: Box, test: Callable[[list[Enclosure]], bool]) -> bool:
+    """Whether some enclosure of a map on a box, in numbers of few bits, has a property."""
+    plain: Any = map_.map if isinstance(map_, LocalMap) else map_
+    ways = 1 if isinstance(plain, Flow) else 2  # a flow's values have the mean value form
+    try:
+        return any(test(values) for values in islice(attempts(map_, box, (_BITS,)), ways))
+    except Unproved:
+        return False
+
+
+def scale_of(map_: Differentiable, box: Box) -> Box:
+    """Return sides whose images are enclosed about equally widely, to halve parts of a box by.
+
+    A map from points to points of the same variables. Widths are parts of the sides of the box.
+    """
+    try:
+        return _scale(map_, box, _STRIPS)
+    except Unproved:
+        return _scale(map_, box, _STRIPS**2)
+
+
+def _scale(map_: Differentiable, box: Box, strips: int) -> Box:
+    units, sides = list[tuple[Fraction, Fraction]](), [high - low for low, high in box]
+    for j, side in enumerate(sides):
+        reach = [side / (2 * strips) * (k == j) for k in range(len(box))]
+        middles = [(low + high) / 2 for low, high in box]
+        strip = tuple((m - r, m + r) for m, r in zip(middles, reach, strict=True))
+        ranges = [value.range for value in map_.values(enclosed(strip, _BITS))]
+        widths = [(b - a) / whole for (a, b), whole in zip(ranges, sides, strict=True) if whole]
+        units.append((Fraction(0), side / max(*widths, _LEAST)))
+    return tuple(units)
+
+
+def part_of_tree(tree: Tree, box: Box) -> tuple[Tree, list[Box]]:
+    """Return the part of a tree that divides a smaller box, and its leaves."""
+    if tree is None:
+        return None, [box]
+    axis, cut = int(tree[0]) - 1, Fraction(tree[1])
+    low, high = box[axis]
+    if high <= cut or cut <= low:
+        return part_of_tree(tree[2 if high <= cut else 3], box)
+    sides = [(*box[:axis], ends, *box[axis + 1 :]) for ends in ((low, cut), (cut, high))]
+    (one, first), (two, second) = (
+        part_of_tree(part, side) for part, side in zip(tree[2:], sides, strict=True)
+    )
+    return [*tree[:2], one, two], first + second

@@ -1,0 +1,54 @@
+"""Boxes whose images a map takes into the interior of their union: steps `image`, `trapping`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+from intervals import Undecided
+from proofs.methods.derivation import Derivation
+from proofs.methods.divisions import holds, scale_of
+from proofs.methods.formulas import Tree, subdivide
+from proofs.trusted.certificate import texts
+from proofs.trusted.kernel.arithmetic import Enclosure
+from proofs.trusted.kernel.enclose import Box
+from proofs.trusted.kernel.maps import Map
+from proofs.trusted.kernel.trapping import outside, sides_of
+from proofs.trusted.numbers import Range, ceil_text, floor_text, hull
+
+_MOST_BOXES = 1000  # of a tree
+_DIGITS = 12  # of bounds
+
+
+def prove_trapping(file: Derivation, function: str, boxes: Sequence[Box]) -> str:
+    """Add the images of boxes, and that their union holds them; raises Undecided or Unproved."""
+    map_ = file.map(function)
+    images = []
+    for box in boxes:
+        tree, bounds = _image(map_, box, boxes)
+        witness = {"function": function, "box": list(map(texts, box)), "tree": tree}
+        images.append(file.add("image", {**witness, "bounds": list(map(texts, bounds))}))
+    return file.add("trapping", {"images": images})
+
+
+def _image(map_: Map, box: Box, union: Sequence[Box]) -> tuple[Tree, Box]:
+    """Return bounds on the image of a box, and a tree of parts whose images lie in the union."""
+    known: list[Box] = []
+
+    def inside(values: list[Enclosure]) -> bool:
+        image = tuple(_rounded(value.range) for value in values)
+        is_inside = not outside(sides_of(map_, image), [sides_of(map_, each) for each in union])
+        if is_inside:
+            known.append(image)
+        return is_inside
+
+    try:
+        scale = scale_of(map_, box)
+        tree = subdivide(box, lambda part: holds(map_, part, inside), scale, _MOST_BOXES)
+    except Undecided as error:
+        raise Undecided(f"images are not all seen to lie in the boxes: {error}") from None
+    return tree, tuple(map(hull, zip(*known, strict=True)))
+
+
+def _rounded(values: Range) -> Range:
+    return Fraction(floor_text(values[0], _DIGITS)), Fraction(ceil_text(values[1], _DIGITS))
