@@ -13,7 +13,6 @@ if __name__ == "__main__":
 
     launch("proofs.formal.__main__")
 
-import hashlib
 import re
 import sys
 from argparse import Namespace
@@ -25,6 +24,7 @@ from proofs.formal import cases, coqc, graphs, rebounds
 from proofs.formal.hints import NoHint
 from proofs.formal.plan import CLAIMS, plan
 from proofs.formal.written import Case, NoTheorem, Theorem, ended
+from proofs.report.accepted import RECORD, digest, recorded
 from proofs.shell.answers import Answer, machine_text
 from proofs.shell.cli import Parser, progress, share, whole
 from proofs.shell.files import check_folder, check_targets, refusing, write_target, writing
@@ -70,6 +70,8 @@ def main(arguments: list[str] | None = None) -> int:
     )
     add("--out", type=Path, default=Path("formal"), metavar="DIR", help="default: formal")
     add("--floats", action="store_true", help="compute with machine floats: less time, more axioms")
+    about = "enter what coqc accepts in the project's record, which the ledger shows"
+    add("--record", action="store_true", help=about)
     add("--brief", action="store_true", help="print the theorems alone, as Coq has them")
     seconds = whole("seconds", 10**6)
     add("--seconds", type=seconds, default=_SECONDS, metavar="N", help=_LIMIT)
@@ -77,6 +79,8 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     if options.arithmetic == (options.certificate is not None):
         parser.error("a certificate is expected, or --arithmetic")
+    if options.record and (options.arithmetic or options.floats):
+        parser.error("--record is about a certificate, with Coq's own integers")
     made = _made(parser, options)
     if isinstance(made, int):
         return made
@@ -115,13 +119,13 @@ def _made(parser: Parser, options: Namespace) -> Case | int:
 
 def _of_certificate(source: str, floats: bool) -> Case:
     """Check a certificate, and return its case: of graphs, of rectangles or of a horseshoe."""
-    report, digest = check(source), hashlib.sha256(source.encode()).hexdigest()
+    report, of = check(source), digest(source)
     if report.parameters is None:
-        return graphs.case(report, source, digest)
+        return graphs.case(report, source, of)
     claims = {claim.id for claim in report.claims}
     if claims.isdisjoint(CLAIMS) and not claims.isdisjoint(rebounds.CLAIMS):
-        return rebounds.case(report, source, digest, floats)
-    return cases.case(plan(source, report), digest, floats)
+        return rebounds.case(report, source, of)
+    return cases.case(plan(source, report), of, floats)
 
 
 def arithmetic() -> Case:
@@ -153,7 +157,7 @@ def _prove(
                 "statement": written(name),
                 "seconds": f"{times[name]:.1f}",
             }
-            for name, says in made.theorems
+            for name, says, _ in made.theorems
         ],
         "left_out": list(made.left_out),
         "axioms": found,
@@ -167,7 +171,19 @@ def _prove(
     if others or not found:
         say(f"{parser.prog}: axioms not expected: {', '.join(others)}: a bug", sys.stderr)
         return 3
+    if options.record:
+        with refusing(parser, RECORD.parent), writing(RECORD.parent) as put:
+            put(RECORD.name, _entered(options.certificate, made))
     return 0
+
+
+def _entered(certificate: Path, made: Case) -> str:
+    """Return the project's record with what is proved of a certificate."""
+    claims: dict[str, list[str]] = {}
+    for theorem in made.theorems:
+        for claim in theorem.decides:
+            claims.setdefault(claim, []).append(theorem.name)
+    return recorded(certificate.name, read(certificate), claims, RECORD)
 
 
 def _brief(answer: Answer) -> str:

@@ -15,11 +15,13 @@ from proofs.formal.lemmas import ROOM, Lemmas
 from proofs.formal.plan import Headline, Plan
 from proofs.formal.written import Case, fields
 from proofs.search.repair import rounded_slopes, short_decimal
+from proofs.trusted.kernel.itineraries import Itinerary
 from proofs.trusted.numbers import Range, show, show_range, within
 from proofs.trusted.verdicts import Verdict
 
 _PLACES = 6  # of a root of Moran's equation
 _BITS = 40  # of Coq's integers, where no margin is thin
+_NARROW = Fraction(1, 2**14), Fraction(1, 2**8)  # about the images of an end of I
 _TINY = Fraction(1, 2**30)
 
 
@@ -51,6 +53,31 @@ class Theorems(Lemmas):
                     f"{follows}: stated where |f'| > 2, and its bound here is {show(least)}"
                 )
 
+    def invariant(self, headline: Headline, orbit: Itinerary) -> None:
+        """Write H8 to H10, on Lambda: where the orbit of an end of I is in I0, then in the gap."""
+        end, interval = orbit.phase, (orbit.phase, headline.interval[1])
+        if self.plan.of.interval != interval or len(orbit.orbit) != 3:
+            return
+        images = [_widened(*x) for x in zip(orbit.orbit[1:], _NARROW, strict=True)]
+        inside = within(images[0], headline.left), within(images[1], headline.gap)
+        if headline.signs != (1, 1) or not all(inside):
+            return
+        cutter = Cutter(self.hints, [end, *images[0], *images[1]])
+        start = cutter.cut(end, end, float(_NARROW[0]) / 4), cutter.cut(*images[0])
+        data = [
+            f"{self._turns(phase)} {cut} {cutter.in_units(low)} {cutter.in_units(high)}"
+            for phase, cut, (low, high) in zip((end, images[0][0]), start, images, strict=True)
+        ]
+        named = {**cutter.numbers, "first": data[0], "second": data[1], "P": end}
+        self.add(theorem_text.FOLLOWED, **named, **self.stated)
+        for claim, text in theorem_text.LAMBDA.items():
+            if claim in self.plan.statements and (claim != "H10" or headline.slopes[0] > 2):
+                says = f"{claim} VERIFIED: {self.plan.statements[claim]}"
+                self.state(f"{claim}_verified", says, text, (claim,), P=end, **self.stated)
+
+    def _turns(self, phase: Fraction) -> int:
+        return math.floor((float(phase) + self.hints.impact(float(phase))) / math.tau)
+
     def claims(self) -> None:
         """Write the theorems on H1 to H6, as far as they are decided."""
         of = self.plan.of
@@ -67,11 +94,11 @@ class Theorems(Lemmas):
                 self._moran(claim, name, says)
             elif claim == "H4":
                 named = {"A": of.interval[0], "B": of.interval[1], "avoid": self.avoid["printed"]}
-                self.state(name, says, theorem_text.H4_VERIFIED, **ends, **named)
+                self.state(name, says, theorem_text.H4_VERIFIED, (claim,), **ends, **named)
             else:
                 printed = self.sets[-1]
                 lows = {f"m{i}": printed.sizes(i)[0] for i in (0, 1)}
-                self.state(name, says, theorem_text.VERIFIED[claim], **ends, **lows)
+                self.state(name, says, theorem_text.VERIFIED[claim], (claim,), **ends, **lows)
 
     def _refuted(self, claim: str, name: str, says: str, ends: dict[str, Fraction]) -> None:
         """Write what one phase shows against a claim."""
@@ -99,7 +126,7 @@ class Theorems(Lemmas):
             sets, image = (of.left, of.right), point.image
             named["A"], named["B"] = next(x for x in sets if x[0] < image[0] and image[1] < x[1])
             named["y"] = next(x[1] for x in sets if x[0] < phase < x[1])
-        self.state(name, says, theorem_text.REFUTED[claim], **named)
+        self.state(name, says, theorem_text.REFUTED[claim], (claim,), **named)
 
     def _spare(self, claim: str, slope: Range) -> float:
         """Return how far f' at a phase is from the bounds that it must keep to refute a claim."""
@@ -115,11 +142,13 @@ class Theorems(Lemmas):
             return
         if claim == "H16":
             r0, r1 = self.plan.of.moran_ratios
-            self.state(name, says, theorem_text.H16, r0=r0, r1=r1)
+            self.state(name, says, theorem_text.H16, (claim,), r0=r0, r1=r1)
         for number, root in enumerate(self.plan.roots if claim == "H11" else ()):
             ends = rounded_slopes(root.root, _PLACES)
             named = {"r0": root.ratios[0], "r1": root.ratios[1], "l": ends[0], "r": ends[1]}
-            self.state(name + (f"_{number}" if number else ""), says, theorem_text.H11, **named)
+            self.state(
+                name + (f"_{number}" if number else ""), says, theorem_text.H11, (claim,), **named
+            )
 
     def _preimages(self, name: str, says: str, ends: dict[str, Fraction]) -> None:
         """Write H5: I0 and I1 are mapped over I, or one of them misses an end of it."""
@@ -128,7 +157,7 @@ class Theorems(Lemmas):
             self.covers(printed)
             named: dict[str, object] = {f"s{i}": f"({printed.sign(i)})" for i in (0, 1)}
             named |= {"m": min(printed.sizes(i)[0] for i in (0, 1)), "avoid": self.avoid["printed"]}
-            self.state(name, says, theorem_text.H5_VERIFIED, **ends, **named)
+            self.state(name, says, theorem_text.H5_VERIFIED, ("H5",), **ends, **named)
             return
         for index, (x, y) in enumerate(printed.domains):
             where, sign = self.lap(index), printed.sign(index)
@@ -138,7 +167,7 @@ class Theorems(Lemmas):
                 for end, phase in ((0, x), (1, y)):
                     self.impact(index, (phase, phase), f"missed{index}_{end}")
                 named = {**ends, "i": index, "x": x, "y": y, "c": missed[0], "d": missed[1]}
-                self.state(name, says, theorem_text.H5_REFUTED, **named, k=where["k"])
+                self.state(name, says, theorem_text.H5_REFUTED, ("H5",), **named, k=where["k"])
                 if index == 0 and sign > 0 and missed[0] == x:
                     self._no_word(ends, self.laps[0])
                 return
@@ -154,7 +183,7 @@ class Theorems(Lemmas):
         ):
             return
         says = f"H7 as printed fails: no orbit stays in I0 = {show_range(self.plan.of.left)}"
-        self.state("no_word_000", says, theorem_text.NO_WORD, **ends, k=lap, **self.stated)
+        self.state("no_word_000", says, theorem_text.NO_WORD, ("H7",), **ends, k=lap, **self.stated)
 
     def _missed(self, low: float, high: float) -> Range | None:
         """Return an interval in I0 or in I1 that an image from `low` to `high` misses."""
@@ -182,8 +211,15 @@ class Theorems(Lemmas):
         self.leaving()
         if self.plan.headline is not None:
             self.horseshoe(self.plan.headline)
+            if self.plan.orbit is not None:
+                self.invariant(self.plan.headline, self.plan.orbit)
         self.claims()
         self.graphs()
+
+
+def _widened(inner: Range, by: Fraction) -> Range:
+    """Return an interval around another."""
+    return (inner[0] - by) // by * by, -(-(inner[1] + by) // by) * by
 
 
 def case(plan: Plan, digest: str, floats: bool) -> Case:

@@ -17,10 +17,11 @@ from proofs.formal.graphs import pairs
 from proofs.formal.hints import SLACK, Branch, Hints, NoHint, steps
 from proofs.formal.written import Writer, rational
 from proofs.trusted.kernel.staying import StayingSet
-from proofs.trusted.numbers import Range, show, show_range
+from proofs.trusted.numbers import Range, hull, show, show_range, within
+from proofs.trusted.paper.s34_circle.other_sets import PRINTED as OTHER
 
 BITS = 56  # of the enclosures
-_PARTS = 2**28  # of what is asked for, in a unit
+PARTS = 2**28  # of what is asked for, in a unit
 _LARGEST = 2.0**-10  # of what the impact after an end of an interval is known to
 _LONGEST = 16.0  # of equal steps, as enclosures that are turned grow
 _FIRST, _LEAST = 1.0, 2.0**-20  # of steps
@@ -63,27 +64,40 @@ class Cut(NamedTuple):
 
 
 class Flown(NamedTuple):
-    """The height, its first and its second derivative in time, for launches from [m - r, m + r]."""
+    """The height, its first and its second derivative in time, for launches from [m - r, m + r].
 
-    hints: Hints
+    eps: the coefficient of restitution; velocities before the impact are from [g - s, g + s].
+    """
+
+    side: int
+    eta: float
+    nu: float
     m: float
     r: float
+    eps: float = 0.0
+    g: float = 0.0
+    s: float = 0.0
 
     def height(self, t: float, order: int, aside: float = 0.0) -> tuple[float, float]:
         """Enclose a derivative at times t - aside to t + aside, as `March.v` does."""
-        (eta, nu), side = self.hints.floats, self.hints.side
-        rise, push = side * (1 + nu * math.sin(self.m)), side * nu * math.cos(self.m) / eta
+        side, eta, nu, swing = self.side, self.eta, self.nu, self.nu / self.eta * (1 + self.eps)
+        rise = side * (1 + nu * math.sin(self.m))
+        push = side * (self.eps * self.g + swing * math.cos(self.m))
         wall, tau, psi = side * nu, eta * t, self.m + t
         turn = order * math.pi / 2  # a derivative turns by a right angle
         scale = eta**order
         middle = scale * (rise * math.cos(tau + turn) + push * math.sin(tau + turn))
         middle -= wall * math.sin(psi + turn) + (side if order == 0 else 0)
-        radius = self.r * scale * abs(nu * math.cos(self.m) * math.cos(tau + turn))
-        radius += self.r * scale * abs(nu * math.sin(self.m) / eta * math.sin(tau + turn))
+        bent = self.r**2 / 2  # of second order
+        lift = self.r * abs(nu * math.cos(self.m)) + bent * abs(nu)
+        radius = lift * scale * abs(math.cos(tau + turn))
+        kick = self.r * abs(swing * math.sin(self.m)) + bent * abs(swing) + self.eps * self.s
+        radius += kick * scale * abs(math.sin(tau + turn))
         radius += (self.r + aside) * abs(nu * math.cos(psi + turn)) + (self.r + aside) ** 2 * abs(
             nu
         )
         waves = abs(rise * math.sin(tau + turn)) + abs(push * math.cos(tau + turn))
+        waves += lift + kick
         radius += aside * scale * eta * waves + (aside * eta) ** 2 * scale * (abs(rise) + abs(push))
         return middle - radius * _SPARE, middle + radius * _SPARE
 
@@ -99,6 +113,10 @@ class Flown(NamedTuple):
     def falls(self, t: float, step: float) -> bool:
         """Whether gap' < 0 is seen for a step."""
         return self.height(t + step / 2, 1, step / 2)[1] < 0
+
+    def is_over(self, t: float) -> bool:
+        """Whether gap < 0 is seen at a time, where `March.v` knows sines by lengths alone."""
+        return self.height(t, 0)[1] + self.r * abs(self.nu) < 0
 
 
 def march(test: Callable[[float, float], bool], start: int, end: int, unit: int) -> list[Run]:
@@ -126,7 +144,7 @@ class Cutter:
     def __init__(self, hints: Hints, ends: Iterable[Fraction]) -> None:
         self.hints = hints
         numbers = (hints.eta, hints.nu, SLACK, *ends)
-        self.unit = math.lcm(*(each.denominator for each in numbers)) * _PARTS
+        self.unit = math.lcm(*(each.denominator for each in numbers)) * PARTS
 
     @property
     def numbers(self) -> dict[str, object]:
@@ -139,18 +157,21 @@ class Cutter:
         """Return a number in units, of which it is a multiple."""
         return int(x * self.unit)
 
+    def _flown(self, m: float, r: float) -> Flown:
+        return Flown(self.hints.side, *self.hints.floats, m, r)
+
     def cut(self, low: Fraction, high: Fraction, room: float = 0.0) -> Cut:
         """Cut the flights from phases [low, high], up to `room` at least around their impacts."""
         hints, unit = self.hints, self.unit
         phases = steps(float(low), float(high), 8 if low < high else 1)
         times = [hints.impact(phase) for phase in phases]
-        flown = Flown(hints, float(low + high) / 2, float(high - low) / 2)
+        flown = self._flown(float(low + high) / 2, float(high - low) / 2)
         least, greatest = flown.height(times[0], 0)
         slowest = min(-hints.gap(*at, 1) for at in zip(phases, times, strict=True))
         room = max(room, 2 * (greatest - least) / slowest)
         lift = int(hints.launch(phases, min(times) / 2) * unit)
         u, v = int((min(times) - room) * unit), int((max(times) + room) * unit)
-        if flown.height(v / unit, 0)[1] >= 0:
+        if not flown.is_over(v / unit):
             raise NoHint(f"the impacts of {show_range((low, high))} are too spread")
         return Cut(
             unit,
@@ -166,7 +187,8 @@ class Cutter:
     ) -> list[Cut]:
         """Cut an interval of phases, on the pieces of which |f'| >= least is seen."""
         try:
-            piece = self.cut(low - SLACK, high + SLACK)
+            slack = min(SLACK, (high - low) / 8)
+            piece = self.cut(low - slack, high + slack)
             if self.slope(piece) >= least:
                 return [piece]
             raise NoHint(f"f' is too near its bound in {show_range((low, high))}")
@@ -179,10 +201,10 @@ class Cutter:
 
     def slope(self, piece: Cut) -> float:
         """Return the bound from below on |f'| that `Flights.v` sees on a piece."""
-        hints, (eta, nu) = self.hints, self.hints.floats
+        eta, nu = self.hints.floats
         m, r = (piece.a + piece.b) / 2 / self.unit, (piece.b - piece.a) / 2 / self.unit
         u, v = (each / self.unit for each in piece.times[1:])
-        fall = -Flown(hints, m, r).height((u + v) / 2, 1, (v - u) / 2)[0]
+        fall = -self._flown(m, r).height((u + v) / 2, 1, (v - u) / 2)[0]
         swing = abs(math.sin(eta * (u + v) / 2)) - eta * (v - u) / 2
         pull = abs(nu * math.sin(m) * (1 - eta**2) - eta**2) - abs(nu * (1 - eta**2)) * r
         return max(0.0, swing) / eta * max(0.0, pull) / fall / _SPARE
@@ -217,6 +239,7 @@ def graph(writer: Writer, hints: Hints, i: int, found: StayingSet) -> None:
         for cell, after in zip(found.cells, targets, strict=True)
     ]
     values = {**cutter.numbers, "i": i}
+    is_other = within(hull(found.cells), OTHER)
     arrows = [(a, b) for a, after in enumerate(found.onward) for b in after]
     cells = ", ".join(map(show_range, found.cells))
     says = (
@@ -229,6 +252,7 @@ def graph(writer: Writer, hints: Hints, i: int, found: StayingSet) -> None:
         f"graph{i}",
         says,
         flight_text.GRAPH,
+        ("G5",) if is_other else (),
         **values,
         cells="; ".join(f"({rational(a)}, {rational(b)})" for a, b in found.cells),
         arrows=pairs(arrows),
@@ -241,7 +265,8 @@ def graph(writer: Writer, hints: Hints, i: int, found: StayingSet) -> None:
     if growth > 1:
         says = f"the entropy of f on these phases is at least log({growth})"
         ones = "[" + "; ".join("1" for _ in found.cells) + "]%Z"
-        writer.state(f"entropy{i}", says, flight_text.ENTROPY, **values, growth=growth, ones=ones)
+        named = {**values, "growth": growth, "ones": ones}
+        writer.state(f"entropy{i}", says, flight_text.ENTROPY, ("G9",), **named)
 
 
 def _bound(least: float) -> Fraction:

@@ -14,7 +14,7 @@ From Coq Require Import Reals ZArith Psatz Lia List.
 From Coquelicot Require Import Coquelicot.
 {arithmetic}
 From Oscillator Require Import Impact Chaos Flight Shift Numbers March Corrected Flights Graph Cells
-  Verdicts Consequences Claims.
+  Verdicts Consequences Lambda Claims.
 Import ListNotations.
 Open Scope R_scope.
 

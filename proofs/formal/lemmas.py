@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from proofs.formal import lemma_text as text
 from proofs.formal.flights import Cut, Cutter
-from proofs.formal.hints import SLACK, Branch, Hints, NoHint, binary
+from proofs.formal.hints import Branch, Hints, NoHint, binary
 from proofs.formal.plan import Plan
 from proofs.formal.written import Writer, by_cases, rational
 from proofs.search.repair import short_decimal
@@ -135,7 +135,7 @@ class Lemmas(Writer):
         """Write the bounds on f', piece by piece, then for each of the sets and on the whole."""
         parts = [(sets.domains[index], sets.bounds[index]) for sets in self.sets]
         cuts = {end for domain, _ in parts for end in domain}
-        cuts |= {branch.b - SLACK for branch in branches}
+        cuts |= {(one.b + other.a) / 2 for one, other in pairwise(branches)}
         pieces: list[tuple[str, Range]] = []
         used = [bounds for _, bounds in parts]
         for zone in pairwise(sorted(cuts)):

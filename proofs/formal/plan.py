@@ -8,6 +8,7 @@ from proofs.formal.written import NoTheorem
 from proofs.search.repair import places, rounded_slopes
 from proofs.trusted.certificate import FIELDS, Malformed, parse
 from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.itineraries import Itinerary
 from proofs.trusted.kernel.laps import SlopeRange
 from proofs.trusted.kernel.moran import MoranRoot
 from proofs.trusted.kernel.staying import StayingSet
@@ -17,6 +18,7 @@ from proofs.trusted.slopes import Impact, impacts
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Report, check
 
+PRINTED = ("H8", "H9", "H10")  # of Lambda
 CLAIMS = ("H1", "H2", "H3", "H4", "H5", "H6", "H11", "H16")
 _OF_RISING = ("H1", "H2", "H3", "H6")
 _MOST_DIGITS = 12
@@ -33,6 +35,11 @@ class Headline:
     is_corrected: bool
 
     @property
+    def gap(self) -> Range:
+        """The phases between I0 and I1."""
+        return self.left[1], self.right[0]
+
+    @property
     def interval(self) -> Range:
         """I, from the left end of I0 to the right end of I1."""
         return self.left[0], self.right[1]
@@ -43,7 +50,7 @@ class Plan:
     """What is to be stated: a horseshoe, if there is one, and what is decided of the claims.
 
     points: the phases by which claims are refuted; roots: of Moran's equation; sets: those that
-    stay, a horseshoe first.
+    stay, a horseshoe first; orbit: of the printed end of I, by which Lambda is known.
     """
 
     of: Parameters
@@ -53,6 +60,7 @@ class Plan:
     points: dict[str, Impact]
     roots: tuple[MoranRoot, ...]
     sets: tuple[StayingSet, ...]
+    orbit: Itinerary | None
 
     def holds(self, *claims: str) -> bool:
         """Whether claims are verified."""
@@ -88,10 +96,11 @@ def plan(source: str, report: Report | None = None) -> Plan:
         of,
         _headline(of, found, decided, bool(claims)),
         decided,
-        {name: each.statement for name, each in claims.items()},
+        {each.id: each.statement for each in report.claims if each.id in (*CLAIMS, *PRINTED)},
         points,
         tuple(x for x in proofs.get("H11", []) if isinstance(x, MoranRoot)),
         tuple(_staying(found)),
+        next((x for x in found if isinstance(x, Itinerary)), None),
     )
     if not claims and result.headline is None:
         raise Malformed("$.claims: none is of python -m proofs horseshoe, or rests on a horseshoe")

@@ -215,6 +215,41 @@ FOLLOWS_IN_WORDS = {
     "measure_zero": "the phases that stay in I have Lebesgue measure zero",
 }
 
+FOLLOWED = """
+Lemma landed : lands_twice {bits} {unit} ({side}) {eta} ({nu})
+  {first}
+  {second} = true.
+Proof. vm_cast_no_check (eq_refl true). Qed.
+Lemma followed : exists y z, next {P} y /\\ {A} <= y <= {b0} /\\ next y z /\\ {b0} < z < {a1}.
+Proof.
+  destruct (computed_orbit _ _ _ _ _ _ _ _ _ _ _ _ _ side eta nu {P} landed eq_refl) as (y & z & Y & L & Z & M);
+    try (unfold ratio, side, eta, nu; cbn [first_phase last_phase]; field).
+  exists y, z. unfold ratio in L, M. repeat split; auto; lra.
+Qed.
+"""
+_ON_LAMBDA = """
+  destruct {of} as [(f & I) (_ & F)], followed as (y & z & N & Y & N' & Z).
+  apply (lambda_{way} next {A} {b0} {a1} {B} {m} {M}) with (f := f) (y := y) (z := z); auto; try lra.
+  apply next_unique.
+Qed.
+"""
+LAMBDA = {
+    "H8": SAYS
+    + r"""Theorem {name} : rich next (stays next {P} {B}) /\
+  forall n, (0 < n)%nat -> exists l, forall x, stays next {P} {B} x -> iterate next n x x -> In x l.
+Proof.
+  split; [|intros n n0; destruct (proj1 theorem_3 n n0) as (l & _ & _ & E); exists l; intros x S It;
+    apply E; split; auto; apply stays_part with (2 := S); lra]."""
+    + _ON_LAMBDA.replace("{way}", "rich"),
+    "H9": SAYS
+    + "Theorem {name} : cantor_set (stays next {P} {B}).\nProof."
+    + _ON_LAMBDA.replace("{way}", "cantor"),
+    "H10": SAYS
+    + """Theorem {name} : null (stays next {P} {B}).
+Proof. apply (null_part _ (stays next {A} {B})); [intros x; apply stays_part; lra | exact measure_zero]. Qed.
+""",
+}
+
 NO_WORD = (
     SAYS
     + """Theorem {name} :

@@ -18,10 +18,11 @@ class NoTheorem(ValueError):
 
 
 class Theorem(NamedTuple):
-    """A theorem by its name in Coq and in words."""
+    """A theorem by its name in Coq and in words, and the paper's claims whose verdict it proves."""
 
     name: str
     says: str
+    decides: Sequence[str] = ()
 
 
 class Case(NamedTuple):
@@ -48,10 +49,12 @@ class Writer:
         """Write a template with these values."""
         self.lines.append(template.format(**fields(**{**self.numbers, **values})))
 
-    def state(self, name: str, says: str, template: str, **values: object) -> None:
-        """Write a theorem."""
+    def state(
+        self, name: str, says: str, template: str, decides: Sequence[str] = (), /, **values: object
+    ) -> None:
+        """Write a theorem, and which claims of the paper it decides."""
         self.add(template, name=name, says=comment(says), **values)
-        self.theorems.append(Theorem(name, says))
+        self.theorems.append(Theorem(name, says, decides))
 
     def ended(self, head: str) -> Case:
         """Return the case."""

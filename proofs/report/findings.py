@@ -14,6 +14,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
+from proofs.report.accepted import Accepted, accepted
 from proofs.trusted.certificate import LEDGER, Reader, parse, used_steps
 from proofs.trusted.files import read
 from proofs.trusted.kernel.conclusion import Conclusion
@@ -39,7 +40,7 @@ SECTIONS: Mapping[str, str] = MappingProxyType(
 )  # the paper's
 
 
-_ENTRY = ("id", "verdict", "file", "statement", "why", "witness", "corrected", "quantities")
+_ENTRY = ("id", "verdict", "file", "statement", "why", "witness", "corrected", "quantities", "coq")
 
 
 _WORTH = 200  # characters of a statement that is not repeated in another
@@ -60,7 +61,7 @@ class Finding:
     """A claim, decided: its row, the decision, and the steps of the proof, in their order.
 
     own_steps: those that decide it; the others are what these rest on. quantities: as printed in
-    the certificate, rounded outward.
+    the certificate, rounded outward. coq: the theorems that decide it in Coq, if there are any.
     """
 
     row: Row
@@ -71,6 +72,7 @@ class Finding:
     other_steps: tuple[Step, ...]
     quantities: Mapping[str, tuple[str, str]]
     made: str
+    coq: Accepted | None
 
     @property
     def id(self) -> str:
@@ -96,6 +98,14 @@ class Finding:
     def checked(self) -> str:
         """The command that checks it."""
         return f"python -m proofs check reports/{self.file}"
+
+    @property
+    def in_coq(self) -> str:
+        """The theorems that decide it in Coq, and the command that has them proved."""
+        if self.coq is None:
+            return ""
+        names = ", ".join(f"`{name}`" for name in self.coq.theorems)
+        return f"{names}, by `python -m proofs formal reports/{self.coq.file}`"
 
 
 @dataclass(frozen=True)
@@ -158,13 +168,14 @@ def findings(folder: Path, documents: Mapping[str, Context]) -> Findings:
     if schema.string() != LEDGER:
         raise schema.fail(f"schema {schema.string()[:60]!r} is not {LEDGER!r}")
     order = {key: place for place, key in enumerate(SECTIONS)}
-    claims, texts = [], dict[str, dict[str, Any]]()
-    for entry in entries_of.items(least=1):
-        id_of, verdict_of, file_of = entry.fields(*_ENTRY)[:3]
+    claims = []
+    entries = [entry.fields(*_ENTRY)[:3] for entry in entries_of.items(least=1)]
+    sources = {file: read(folder / file) for file in dict.fromkeys(x[2].string() for x in entries)}
+    texts = {file: json.loads(source) for file, source in sources.items()}
+    in_coq = accepted(sources.values())
+    for id_of, verdict_of, file_of in entries:
         file = file_of.string()
-        if file not in texts:
-            texts[file] = json.loads(read(folder / file))
-        finding = _finding(id_of, file, texts[file], documents)
+        finding = _finding(id_of, file, texts[file], documents, in_coq.get(id_of.string()))
         if finding.verdict.value != verdict_of.string():
             raise Rejected(f"{verdict_of.path}: {file} gives {finding.verdict.value}")
         claims.append(finding)
@@ -173,7 +184,11 @@ def findings(folder: Path, documents: Mapping[str, Context]) -> Findings:
 
 
 def _finding(
-    id_of: Reader, file: str, document: dict[str, Any], documents: Mapping[str, Context]
+    id_of: Reader,
+    file: str,
+    document: dict[str, Any],
+    documents: Mapping[str, Context],
+    coq: Accepted | None,
 ) -> Finding:
     claim = id_of.string()
     row = find(claim)
@@ -192,6 +207,7 @@ def _finding(
         tuple(step for step in steps if step.name not in own["proof"]),
         {name: (ends["lower"], ends["upper"]) for name, ends in own["quantities"].items()},
         command(file, context.of, (claim,)),
+        coq,
     )
 
 

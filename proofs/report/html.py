@@ -122,6 +122,11 @@ class View:
         return sum(claim.row.own for claim in self.findings.claims)
 
     @property
+    def in_coq(self) -> int:
+        """How many claims Coq has decided."""
+        return sum(claim.coq is not None for claim in self.findings.claims)
+
+    @property
     def headline(self) -> Statement | None:
         """The theorem beside the paper's main one: what it corrects, if that is decided."""
         for claim in self.findings.claims:

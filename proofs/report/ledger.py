@@ -39,8 +39,11 @@ def ledger(findings: Findings, pictures: Sequence[Picture] = ()) -> str:
         parts.append(f'## <a id="sec-{key}"></a>{key} {title}')
         parts.append(
             _table(
-                ("claim", "verdict", "the paper's words"),
-                [(_link(claim), _verdict(claim.verdict), _words(claim)) for claim in claims],
+                ("claim", "verdict", "Coq", "the paper's words"),
+                [
+                    (_link(each), _verdict(each.verdict), "✓" if each.coq else "", _words(each))
+                    for each in claims
+                ],
             )
         )
         parts += [
@@ -53,6 +56,7 @@ def ledger(findings: Findings, pictures: Sequence[Picture] = ()) -> str:
     parts += _falls(findings)
     parts += [
         '## <a id="check"></a>Check it yourself',
+        "A tick under Coq: the claim's verdict has a theorem that Coq's kernel accepts, too.",
         "The certificates beside this page hold the witnesses in exact numbers. From the "
         "repository's root, with nothing but Python:",
         "    python -m proofs check reports/MANIFEST.json",
@@ -79,7 +83,9 @@ def _claim(findings: Findings, claim: Finding) -> list[str]:
             parts.append(f"See [{label}](#{each.label}): {markdown(each.conclusion.brief)}.")
     rest = RESTS.get(claim.id)
     argument = f"In the paper it rests on {_links(rest.on)}. " if rest else ""
-    parts.append(f"{argument}Certificate: [{claim.file}]({claim.file}), made by `{claim.made}`.")
+    coq = f" In Coq: {claim.in_coq}." if claim.coq else ""
+    made = f"Certificate: [{claim.file}]({claim.file}), made by `{claim.made}`."
+    parts.append(argument + made + coq)
     return parts
 
 

@@ -6,7 +6,7 @@ import json
 import os
 import sys
 from argparse import Namespace
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import as_completed
 from dataclasses import dataclass
 from importlib import import_module
@@ -15,6 +15,7 @@ from time import perf_counter
 from typing import Any
 
 from proofs.report import current
+from proofs.report.accepted import Accepted, accepted
 from proofs.shell import manifest, runner
 from proofs.shell.cli import Parser, heard, progress
 from proofs.shell.entry import workers
@@ -97,12 +98,13 @@ class Settled:
         """Whether it was proved just now."""
         return self.found is None
 
-    def rows(self) -> list[dict[str, Any]]:
-        """Return the entries asked for, for the ledger."""
+    def rows(self, in_coq: Mapping[str, Accepted]) -> list[dict[str, Any]]:
+        """Return the entries asked for, for the ledger, with the theorems that Coq has."""
         return [
             {
                 **{name: value for name, value in entry.items() if name != "proof"},
                 "file": f"{self.job.name}.json",
+                "coq": [*in_coq[entry["id"]].theorems] if entry["id"] in in_coq else [],
             }
             for entry in json.loads(self.made.certificate)["claims"]
             if entry["id"] in self.job.claims
@@ -172,9 +174,10 @@ def main(arguments: list[str] | None = None) -> int:
     except (Malformed, Rejected) as error:
         say(f"THE CHECKER DISAGREES WITH THE PROVER, a bug: {error}", sys.stderr)
         return 3
-    rows = _in_order([row for one in settled for row in one.rows()])
-    text = render({"schema": LEDGER, "claims": rows})
     certificates = {f"{one.job.name}.json": one.made.certificate for one in settled}
+    in_coq = accepted(certificates.values())
+    rows = _in_order([row for one in settled for row in one.rows(in_coq)])
+    text = render({"schema": LEDGER, "claims": rows})
     with refusing(parser, options.out):
         with writing(options.out) as put:
             put("ledger.json", text)

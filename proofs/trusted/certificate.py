@@ -36,7 +36,7 @@ from proofs.trusted.parameters import Parameters, Place
 SCHEMA = "impact-proofs.certificate/4"
 FIELDS = ("schema", "parameters", "functions", "steps", "claims")
 MANIFEST = "impact-proofs.manifest/3"
-LEDGER = "impact-proofs.ledger/2"
+LEDGER = "impact-proofs.ledger/3"
 MAX_BYTES = 4_000_000
 _MAX_DIGITS = 3000
 SIGNS = "signs"  # a field of the parameters that is there only if f decreases

@@ -100,6 +100,7 @@ def _check_entry(folder: Path, name: str, entry: Reader, work: float) -> Iterato
 def check_ledger(source: str, folder: Path, work: float) -> list[Listed]:
     """Check that each entry of a ledger is one of the certificate that it names.
 
+    Its member `coq`, names of theorems that Coq proves, is Coq's to check.
     Raises Malformed or Rejected where that is not so.
     """
     proved: dict[str, dict[str, Any]] = {}
@@ -118,7 +119,8 @@ def check_ledger(source: str, folder: Path, work: float) -> list[Listed]:
                 proved[name] = {x["id"]: x for x in parse(text).value["claims"]}
             own = dict(proved[name].get(members["id"].string(), {}))
             own.pop("proof", None)
-            _same(entry, {**own, "file": name})
+            in_coq = [each.string() for each in members["coq"].items()] if "coq" in members else []
+            _same(entry, {**own, "file": name, "coq": in_coq})
             own_id = own["id"]
             listed.append(Listed(own_id, Verdict(own["verdict"]), True, _is_own(own_id)))
     return _some(listed, claims_of)

@@ -26,14 +26,14 @@ Definition nonperiodic (x : R) : Prop :=
 
 Definition same_orbit (x y : R) : Prop := exists i j z, iterate i x z /\ iterate j y z.
 
-(* Theorem 3: 2^n points fixed by f^n, every least period, uncountably many nonperiodic orbits
-   (no sequence e meets them all), a dense orbit. *)
-Definition chaos : Prop :=
-  (forall n, (0 < n)%nat -> count (fun x => iterate n x x) (2 ^ n)) /\
+(* Theorem 3: every least period, uncountably many nonperiodic orbits (no sequence e meets them all),
+   a dense orbit; and 2^n points fixed by f^n. *)
+Definition rich : Prop :=
   (forall n, (0 < n)%nat -> exists x, L x /\ period n x) /\
   (forall e : nat -> R, exists x, L x /\ nonperiodic x /\ forall k, ~ same_orbit x (e k)) /\
   (exists x, L x /\ forall y eps, L y -> 0 < eps ->
      exists n z, iterate n x z /\ L z /\ Rabs (z - y) < eps).
+Definition chaos : Prop := (forall n, (0 < n)%nat -> count (fun x => iterate n x x) (2 ^ n)) /\ rich.
 
 (* Theorem 4: not empty, compact (every open cover has a finite one), without isolated points, and
    without an interval: between any two points there is one outside. *)

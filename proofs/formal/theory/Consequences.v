@@ -175,22 +175,28 @@ Proof.
     symmetry in H. apply Nat.eqb_eq in H. lia.
 Qed.
 
-Lemma uncountable (e : nat -> R) :
-  exists x, L x /\ nonperiodic N x /\ forall k, ~ same_orbit N x (e k).
+(* The periodic words, and those of the orbits of a sequence: a word without these as a tail. *)
+Definition orbits_of (e : nat -> R) (q : nat) : word := let (a, b) := of_nat q in let (c, d) := of_nat b in
+  match a with O => rep c d | S _ => letter (fun w => iterate d (e c) (X w)) end.
+
+Lemma avoids_orbits e w : (forall q i, exists j, tail i w j <> orbits_of e q j) ->
+  nonperiodic N (X w) /\ forall k, ~ same_orbit N (X w) (e k).
 Proof.
-  set (T := fun q => let (a, b) := of_nat q in let (c, d) := of_nat b in
-    match a with O => rep c d | S _ => letter (fun w => iterate d (e c) (X w)) end).
-  destruct (avoid T) as [w H]. exists (X w). split; [apply X_L|split].
+  intros H. split.
   - intros (i & n & y & n0 & I & P). apply iterate_X in I. subst y. apply iterate_X in P.
     assert (Q := proj1 (X_inj _ _) P). destruct (digits n (tail i w)) as (c & _ & C).
-    destruct (H (to_nat (O, to_nat (c, n))) i) as [j J]. apply J. unfold T.
+    destruct (H (to_nat (O, to_nat (c, n))) i) as [j J]. apply J. unfold orbits_of.
     rewrite !cancel_of_to. unfold rep. rewrite C by (apply Nat.mod_upper_bound; lia).
     apply (periodic_mod n (tail i w)); auto.
   - intros k (i & j & z & I & J). apply iterate_X in I. subst z.
-    destruct (H (to_nat (1%nat, to_nat (k, j))) i) as [l G]. apply G. unfold T.
+    destruct (H (to_nat (1%nat, to_nat (k, j))) i) as [l G]. apply G. unfold orbits_of.
     rewrite !cancel_of_to. symmetry. apply letter_spec; auto. intros v V.
     apply X_inj. apply (iterate_det _ _ _ _ V J).
 Qed.
+
+Lemma uncountable (e : nat -> R) :
+  exists x, L x /\ nonperiodic N x /\ forall k, ~ same_orbit N x (e k).
+Proof. destruct (avoid (orbits_of e)) as [w H]. exists (X w). split; [apply X_L|apply (avoids_orbits e w H)]. Qed.
 
 Lemma dense_orbit : exists x, L x /\ forall y eps, L y -> 0 < eps ->
   exists n z, iterate n x z /\ L z /\ Rabs (z - y) < eps.
@@ -329,3 +335,12 @@ Qed.
 Theorem null_theorem : 2 < m -> null L.
 Proof. destruct shifted as (X & _ & S & I & Nx & C & D). apply (null_X X); auto. Qed.
 End Consequences.
+
+Lemma null_part (L L' : R -> Prop) : (forall x, L x -> L' x) -> null L' -> null L.
+Proof.
+  intros Sub H eps E. destruct (H eps E) as (l & O & C & S). exists l. split; [exact O|split; [|exact S]].
+  intros x X. apply C, Sub, X.
+Qed.
+
+Lemma stays_part N A P B x : A <= P -> stays N P B x -> stays N A B x.
+Proof. intros L (u & U & H). exists u. split; auto. intros n. destruct (H n). split; auto. lra. Qed.

@@ -142,25 +142,31 @@ Proof.
 Qed.
 
 (* One piece after the other, each beginning before the last one ends. *)
-Fixpoint chain (test : cut -> bool) (from to : Z) (l : list cut) : bool :=
+Section Chain.
+Variable T : Type.
+Variables first last : T -> Z.
+Fixpoint chain (test : T -> bool) (from to : Z) (l : list T) : bool :=
   match l with
   | [] => false
-  | p :: t => if (first_phase p <? from)%Z && (from <? last_phase p)%Z && test p
-      then if (to <? last_phase p)%Z then true else chain test (last_phase p) to t
+  | p :: t => if (first p <? from)%Z && (from <? last p)%Z && test p
+      then if (to <? last p)%Z then true else chain test (last p) to t
       else false
   end.
 
-Lemma chain_holds (P : R -> Prop) test : (forall p, test p = true -> forall x, ratio (first_phase p) < x < ratio (last_phase p) -> P x) ->
+Lemma chain_holds (P : R -> Prop) test : (forall p x, test p = true -> ratio (first p) < x < ratio (last p) -> P x) ->
   forall l from to, chain test from to l = true -> forall x, ratio from <= x <= ratio to -> P x.
 Proof.
   intros Here. induction l as [|p l IH]; intros from to C x X; cbn [chain] in C; [discriminate|].
   destruct (_ && _) eqn:G in C; [|discriminate].
   rewrite !andb_true_iff, !Z.ltb_lt in G. destruct G as [[A B] Gp].
   apply (ratio_lt unit) in A, B.
-  destruct (Rlt_dec x (ratio (last_phase p))) as [Lt|Ge]; [apply (Here p Gp); lra|].
-  destruct (Z.ltb_spec to (last_phase p)) as [D|D]; [apply (ratio_lt unit) in D; lra|].
-  apply (IH (last_phase p) to C). lra.
+  destruct (Rlt_dec x (ratio (last p))) as [Lt|Ge]; [apply (Here p x Gp); lra|].
+  destruct (Z.ltb_spec to (last p)) as [D|D]; [apply (ratio_lt unit) in D; lra|].
+  apply (IH (last p) to C). lra.
 Qed.
+End Chain.
+Arguments chain {T}.
+Arguments chain_holds {T}.
 
 Variable ends : list (Z * Z).
 Variable arrows : list (nat * nat).
@@ -176,7 +182,7 @@ Definition spread (L R : I.type) (j : nat) : bool :=
   (at_most bits unit L a && at_least bits unit R b) || (at_most bits unit R a && at_least bits unit L b).
 Definition good_source (i : nat) : bool :=
   let (l, r) := ends_of i in let s := laps_of i in
-  chain (good_piece (turns s) (rising s)) l r (cuts s) &&
+  chain first_phase last_phase (good_piece (turns s) (rising s)) l r (cuts s) &&
   match at_phase (turns s) (left_end s) l, at_phase (turns s) (right_end s) r with
   | Some L, Some R => forallb (fun a => if (fst a =? i)%nat then spread L R (snd a) else true) arrows
   | _, _ => false
@@ -192,7 +198,7 @@ Lemma flies_there i x : In i sources -> within unit ends i x -> flies (turns (la
 Proof.
   intros S X. destruct checks as [_ H]. specialize (H i S). unfold good_source in H. unfold within in X.
   destruct (ends_of i) as [l r]. apply andb_true_iff in H. destruct H as [H _].
-  apply (chain_holds _ _ (fun p G y Y => good_piece_flies _ _ p y G Y) _ _ _ H x X).
+  apply (chain_holds first_phase last_phase _ _ (good_piece_flies _ _) _ _ _ H x X).
 Qed.
 
 Lemma continuous_there i x : In i sources -> within unit ends i x -> continuity_pt f x.
@@ -232,12 +238,11 @@ Proof.
   intros A X. apply (flies_there i x (source arrows i j A)), (cell_within unit ends arrows (proj1 checks) i j x A X).
 Qed.
 
-Theorem flights_semiconjugate : semiconjugate f cells arrows.
-Proof. apply cells_semiconjugate; [apply checks|apply continuous_there|apply covers_along]. Qed.
-
 Theorem flights_growth v p g : growing ends arrows v p g = true -> entropy_at_least f cells arrows p g.
 Proof. apply cells_growth; [apply checks|apply continuous_there|apply covers_along]. Qed.
 End Flights.
+Arguments chain {T}.
+Arguments chain_holds _ {T}.
 
 Theorem flights_conjugate bits unit side eta nu m n ends arrows flown_from : (0 < eta)%Z -> (n <? m)%positive = true ->
   check_flights bits unit side eta nu (Some (m, n)) ends arrows flown_from = true ->
@@ -259,3 +264,46 @@ Lemma computed_branch bits unit side eta nu p T u v s e n a b t x y : (0 < eta)%
   ratio unit (first_phase p) = a -> ratio unit (last_phase p) = b -> ratio unit T = t -> ratio unit u = x -> ratio unit v = y ->
   branch s e n a b t x y.
 Proof. intros E H <- <- <- <- <- <- <- <-. apply (flown_branch bits unit side eta nu E p T u v H). Qed.
+
+(* The impacts of a cut lie between phases. *)
+Definition lands bits unit side eta nu (k : Z) (p : cut) (l r : Z) : bool :=
+  match image bits unit side eta nu k p with
+  | Some V => at_least bits unit V l && at_most bits unit V r && (0 <=? l)%Z &&
+      above_zero (I.sub (F.PtoP bits) (turned bits 1) (number bits unit r))
+  | None => false
+  end.
+
+Lemma lands_holds bits unit side eta nu k p l r phi : (0 < eta)%Z -> lands bits unit side eta nu k p l r = true ->
+  ratio unit (first_phase p) <= phi <= ratio unit (last_phase p) ->
+  exists psi, Impact.next (IZR side) (ratio unit eta) (ratio unit nu) phi psi /\ ratio unit l <= psi <= ratio unit r.
+Proof.
+  unfold lands. intros E H P. destruct (image bits unit side eta nu k p) as [V|] eqn:Q; [|discriminate].
+  rewrite !andb_true_iff, Z.leb_le in H. destruct H as [[[Lo Hi] L0] R1].
+  pose proof (image_holds bits unit side eta nu E k p V phi Q P) as HV.
+  unfold image in Q. destruct (flown bits unit side eta nu p) as [[[T u] v]|] eqn:Fl; [|discriminate].
+  destruct (branch_time _ _ _ (eta_real unit eta E) _ _ _ _ _ (flown_branch bits unit side eta nu E p T u v Fl) phi P) as [I _].
+  apply (at_least_holds bits unit _ _ _ HV) in Lo. apply (at_most_holds bits unit _ _ _ HV) in Hi.
+  apply (ratio_le unit) in L0. rewrite ratio_0 in L0.
+  assert (T1 : holds (turned bits 1) (2 * PI * 1)).
+  { apply mul_holds; [apply mul_holds; [apply I.fromZ_correct|apply I.pi_correct]|apply I.fromZ_correct]. }
+  pose proof (above_zero_holds _ _ (sub_holds _ _ _ _ T1 (number_holds bits unit r)) R1).
+  eexists. split; [|split; [exact Lo|exact Hi]]. unfold Corrected.lift in *.
+  exists (Flight.impact_time (IZR side) (ratio unit eta) (ratio unit nu) phi), k. split; [exact I|split; [reflexivity|lra]].
+Qed.
+
+(* A phase whose image lies in an interval, and the image of that in another one. *)
+Definition lands_twice bits unit side eta nu k p l r k' p' l' r' : bool :=
+  lands bits unit side eta nu k p l r && lands bits unit side eta nu k' p' l' r' &&
+  (first_phase p' <=? l)%Z && (r <=? last_phase p')%Z.
+
+Lemma computed_orbit bits unit side eta nu k p l r k' p' l' r' s e n x :
+  lands_twice bits unit side eta nu k p l r k' p' l' r' = true -> (0 < eta)%Z ->
+  IZR side = s -> ratio unit eta = e -> ratio unit nu = n -> ratio unit (first_phase p) = x -> ratio unit (last_phase p) = x ->
+  exists y z, Impact.next s e n x y /\ ratio unit l <= y <= ratio unit r /\
+    Impact.next s e n y z /\ ratio unit l' <= z <= ratio unit r'.
+Proof.
+  unfold lands_twice. rewrite !andb_true_iff, !Z.leb_le. intros [[[H G] A] B] E <- <- <- <- X.
+  apply (ratio_le unit) in A, B.
+  destruct (lands_holds bits unit side eta nu k p l r _ E H (conj (Rle_refl _) (Req_le_sym _ _ X))) as (y & Y & Y').
+  destruct (lands_holds bits unit side eta nu k' p' l' r' y E G ltac:(lra)) as (z & Z & Z'). exists y, z. auto.
+Qed.

@@ -145,6 +145,8 @@ Definition good (k : stage) (L : launch) (BOX THERE : place) (STEP : I.type) (P 
 Definition ahead (h : Z) : place := angles (number eta [*] number h) (number h).
 Definition about (h : Z) : place := angles (number eta [*] range 0 h) (ASIDE [+] range 0 h).
 Definition seen (t : Z) : place := angles (number eta [*] number t) (MIDDLE [+] number t).
+(* At a time between t and t + h. *)
+Definition between (t h : Z) : place := turn (seen t) (about h).
 
 Fixpoint march (test : place -> bool) (H : place) (n : nat) (P : place) : bool :=
   match n with O => true | S n => if test P then march test H n (turn P H) else false end.
@@ -167,17 +169,28 @@ Hypothesis from_box : is_from L phi g.
 Lemma aside_holds : holds ASIDE (phi - middle).
 Proof. apply sub_holds; [apply range_holds; auto|apply middle_holds]. Qed.
 
+Lemma seen_at t : is_at (seen t) (E' * ratio t) (middle + ratio t).
+Proof.
+  apply angles_at; [apply mul_holds; apply number_holds|apply add_holds; [apply middle_holds|apply number_holds]].
+Qed.
+
+Lemma about_at h P t r : is_at P (E' * t) (middle + t) -> t <= r <= t + ratio h -> is_at (turn P (about h)) (E' * r) (phi + r).
+Proof.
+  intros A Hr. assert (St : holds (range 0 h) (r - t)) by (apply range_holds; rewrite ratio_0; lra).
+  replace (E' * r) with (E' * t + E' * (r - t)) by ring.
+  replace (phi + r) with (middle + t + (phi - middle + (r - t))) by ring.
+  apply turn_at; auto. apply angles_at; [apply mul_holds; [apply number_holds|auto]|].
+  apply add_holds; [apply aside_holds|auto].
+Qed.
+
+Lemma between_at t h r : ratio t <= r <= ratio t + ratio h -> is_at (between t h) (E' * r) (phi + r).
+Proof. apply about_at, seen_at. Qed.
+
 Lemma good_holds k h P t : good k L (about h) (angles (number 0) ASIDE) (range 0 h) P = true ->
   is_at P (E' * t) (middle + t) -> forall s, t <= s <= t + ratio h -> asked k phi g s.
 Proof.
   intros T A s Hs.
-  assert (Box : forall r, t <= r <= t + ratio h ->
-    is_at (turn P (about h)) (E' * r) (phi + r)).
-  { intros r Hr. assert (St : holds (range 0 h) (r - t)) by (apply range_holds; rewrite ratio_0; lra).
-    replace (E' * r) with (E' * t + E' * (r - t)) by ring.
-    replace (phi + r) with (middle + t + (phi - middle + (r - t))) by ring.
-    apply turn_at; auto. apply angles_at; [apply mul_holds; [apply number_holds|auto]|].
-    apply add_holds; [apply aside_holds|auto]. }
+  pose proof (fun r => about_at h P t r A) as Box.
   destruct k; cbn [good asked] in *.
   - apply (above_zero_holds _ _ (bend_holds L phi g from_box _ _ (Box s Hs)) T).
   - assert (There : is_at (turn P (angles (number 0) ASIDE)) (E' * t) (phi + t)).
@@ -223,9 +236,7 @@ Proof.
   destruct (_ && _) eqn:C in R; [|discriminate]. apply andb_true_iff in C. destruct C as [C M]. apply Z.leb_le in C.
   pose proof (runs_later _ _ _ _ R) as Later. pose proof (ratio_add start (Z.of_nat n * h)) as Add.
   assert (Here : (start < start + Z.of_nat n * h)%Z -> t <= ratio (start + Z.of_nat n * h) -> asked k phi g t).
-  { intros S T. apply ratio_lt in S. apply (march_holds k h _ C eq_refl n _ (ratio start) M); [|lra|lra].
-    apply angles_at; [apply mul_holds; apply number_holds|].
-    apply add_holds; [apply middle_holds|apply number_holds]. }
+  { intros S T. apply ratio_lt in S. apply (march_holds k h _ C eq_refl n _ (ratio start) M (seen_at start)); lra. }
   destruct (Z.eq_dec start (start + Z.of_nat n * h)) as [E|E].
   - rewrite <- E in R. apply (IH _ _ R O t Ht).
   - destruct (Rle_dec t (ratio (start + Z.of_nat n * h))) as [T|T]; [apply Here; [nia|auto]|].

@@ -82,6 +82,44 @@ def stops_at(proved, folder, text):
     return refused.value.lemma, str(refused.value)
 
 
+def computed(folder, needed, parts):
+    """Have Coq compute checks, each a pair of definitions and a term; return what they say."""
+    head = "From Coq Require Import Reals ZArith List.\n"
+    head += (
+        f"From {coqc.NAME} Require Import {needed}.\nImport ListNotations.\nOpen Scope R_scope.\n"
+    )
+    modules = coqc.order(head)
+    coqc.copy(coqc.theory(modules, print), folder, modules, ".vo")
+    text = head + "".join(
+        f"Module M{i}.\n{definitions}\nEval vm_compute in ({check}).\nEnd M{i}.\n"
+        for i, (definitions, check) in enumerate(parts)
+    )
+    (folder / "Asked.v").write_text(text)
+    return re.findall(r"= (true|false)", coqc.run(folder, "Asked").output)
+
+
+def one(pattern, change):
+    """An edit of the first place of a pattern in the definitions, which must change something."""
+
+    def edit(definitions, check):
+        edited = re.sub(pattern, change, definitions, count=1)
+        assert edited != definitions
+        return edited, check
+
+    return edit
+
+
+def asking(pattern, change):
+    """An edit of what is asked."""
+
+    def edit(definitions, check):
+        edited = re.sub(pattern, change, check, count=1)
+        assert edited != check
+        return definitions, edited
+
+    return edit
+
+
 def printed_by_coq(folder, *commands):
     """Return in a line what coqc prints for commands after a compiled Case.v."""
     head = ["From Coq Require Import Reals.", "From Coquelicot Require Import Coquelicot."]

@@ -9,21 +9,21 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from proofs.formal import coqc, lemma_text
 from proofs.formal.flights import Flown, graph, march
 from proofs.formal.hints import Hints, NoHint
 from proofs.formal.plan import plan
 from proofs.formal.written import Writer
-from tests.proofs.formal.coq import PAPER, needs_coqc
+from tests.proofs.formal.coq import PAPER, asking, computed, needs_coqc, one
 
 ETA, NU = Fraction("0.2121"), Fraction("-0.2")
 UNIT = 1000
 
 
-def height(eta, nu, phi, t):
-    """The gap after a plastic impact, typed from the paper."""
+def height(eta, nu, phi, t, eps, gamma):
+    """The gap after an impact, typed from the paper."""
     launch = (1 + nu * mpmath.sin(phi)) * mpmath.cos(eta * t)
-    launch += nu * mpmath.cos(phi) * mpmath.sin(eta * t) / eta
+    kick = eps * gamma + nu / eta * (1 + eps) * mpmath.cos(phi)
+    launch += kick * mpmath.sin(eta * t)
     return mpmath.sign(nu) * (launch - 1 - nu * mpmath.sin(phi + t))
 
 
@@ -34,15 +34,19 @@ def height(eta, nu, phi, t):
     st.floats(0.1, 60),
     st.floats(0, 0.5),
     st.sampled_from([0, 1, 2]),
+    st.tuples(st.floats(0, 0.9), st.floats(-1, 1), st.floats(0, 0.5)),
     st.randoms(use_true_random=False),
 )
-def test_the_enclosures_by_which_flights_are_cut(numbers, m, r, t, aside, order, rng):
-    hints = Hints(*map(Fraction, numbers))
-    low, high = Flown(hints, m, r).height(t, order, aside)
+def test_the_enclosures_by_which_flights_are_cut(numbers, m, r, t, aside, order, impact, rng):
+    eta, nu = map(float, numbers)
+    eps, g, s = impact
+    side = 1 if nu > 0 else -1
+    low, high = Flown(side, eta, nu, m, r, *impact).height(t, order, aside)
     with mpmath.workdps(40):
         for _ in range(4):
             phi, time = m + rng.choice([-r, r, 0]), t + rng.choice([-aside, aside, 0])
-            at = partial(height, *map(mpmath.mpf, numbers), phi)
+            gamma = g + rng.choice([-s, s, 0])
+            at = partial(height, *map(mpmath.mpf, numbers), phi, eps=eps, gamma=gamma)
             exact = mpmath.diff(at, time, order)
             assert low - 1e-9 <= exact <= high + 1e-9
 
@@ -86,28 +90,6 @@ def test_the_theorem_that_is_stated(lines):
 FIRST_CUT = r"\(Cut \((\d+)\) \((\d+)\) \[(.*?)\] \[(.*?)\] \[(.*?)\]\)"
 
 
-def one(pattern, change):
-    """An edit of the first place of a pattern, which must change something."""
-
-    def edit(definitions, check):
-        edited = re.sub(pattern, change, definitions, count=1)
-        assert edited != definitions
-        return edited, check
-
-    return edit
-
-
-def asking(pattern, change):
-    """An edit of what is asked."""
-
-    def edit(definitions, check):
-        edited = re.sub(pattern, change, check, count=1)
-        assert edited != check
-        return definitions, edited
-
-    return edit
-
-
 def again(runs):
     """Runs of steps with the last step once more."""
     return re.sub(r"(\d+)%nat\)$", lambda count: f"{int(count[1]) + 1}%nat)", runs)
@@ -145,20 +127,8 @@ LIES = {
 @pytest.mark.long
 def test_data_that_is_not_right_is_refused(lines, tmp_path):
     """All in one file: the true data first, then each lie."""
-    modules = coqc.order(lemma_text.HEAD)
-    coqc.copy(coqc.theory(modules, print), tmp_path, modules, ".vo")
-    needed = "Numbers March Flights Graph Cells"
-    head = "From Coq Require Import Reals ZArith List.\n"
-    head += (
-        f"From {coqc.NAME} Require Import {needed}.\nImport ListNotations.\nOpen Scope R_scope.\n"
-    )
     parts = [lines, *(lie(*lines) for lie in LIES.values())]
-    text = head + "".join(
-        f"Module M{i}.\n{definitions}\nEval vm_compute in ({check}).\nEnd M{i}.\n"
-        for i, (definitions, check) in enumerate(parts)
-    )
-    (tmp_path / "Asked.v").write_text(text)
-    said = re.findall(r"= (true|false)", coqc.run(tmp_path, "Asked").output)
+    said = computed(tmp_path, "Numbers March Flights Graph Cells", parts)
     assert dict(zip(["true data", *LIES], said, strict=True)) == {
         "true data": "true",
         **dict.fromkeys(LIES, "false"),

@@ -2,6 +2,7 @@
 
 import re
 from collections import Counter
+from dataclasses import replace
 from fractions import Fraction
 from html.parser import HTMLParser
 
@@ -9,6 +10,7 @@ import pytest
 
 from proofs.report import __main__ as command
 from proofs.report import theorem as _page
+from proofs.report.accepted import Accepted
 from proofs.report.differences import facts, marked
 from proofs.report.inline import inlined
 from proofs.report.layout import enclosure, enumerated, percents, sentences
@@ -286,3 +288,31 @@ def test_enclosures(bounds, shown):
 )
 def test_percentages_add_up_and_say_no_more_than_is_proved(shares, expected):
     assert list(percents(shares, "U").values()) == expected
+
+
+@pytest.fixture(scope="module")
+def in_coq(found):
+    """The findings, where Coq has decided H1 and H7, by a certificate of another name, alone."""
+    known = {"H1": Accepted("horseshoe.json", ("one", "two")), "H7": Accepted("a.json", ("three",))}
+    return replace(found, claims=tuple(replace(x, coq=known.get(x.id)) for x in found.claims))
+
+
+@pytest.mark.slow
+def test_the_column_of_coq_in_markdown(in_coq):
+    text = ledger(in_coq)
+    ticked = re.findall(r"^\| \[(\w+)\]\(#\w+\) \| [^|]* \| ✓ \|", text, re.MULTILINE)
+    assert ticked == ["H1", "H7"] and text.count("In Coq:") == 2
+    said = text.partition('<a id="H7"></a>H7')[2].partition("###")[0]
+    assert "In Coq: `three`, by `python -m proofs formal reports/a.json`." in said
+    assert "`one`, `two`, by `python -m proofs formal reports/horseshoe.json`." in text
+
+
+@pytest.mark.slow
+def test_the_page_says_which_claims_coq_has(in_coq):
+    html = pytest.importorskip("proofs.report.html")
+    text = html.page(in_coq, [], {})
+    assert "too: 2 claims." in text and text.count("<dt>proved by Coq</dt>") == 2
+    claim = text.partition('<details class="claim" id="H1"')[2].partition("</details>")[0]
+    assert ">Coq</span>" in claim.partition("</summary>")[0]
+    other = text.partition('<details class="claim" id="H2"')[2].partition("</summary>")[0]
+    assert "Coq" not in other
