@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from intervals import Undecided
-from proofs.map import Ends, Map, box_of, exact_sides, optional, theorem_of
+from proofs.map import Ends, Map, box_of, ends_of, exact_sides, optional, theorem_of
 from proofs.methods.grammar import GrammarError, canonical, name
 from proofs.methods.orders import FirstOrder, first_order
 from proofs.theorem import Theorem
@@ -135,6 +135,45 @@ class System(Map):
                 return self._outcome(rule, self._file.map(before, before), state)
         told = (f"{why}: {advice}" for x, advice in _ADVICE.items() for why in reasons if x in why)
         raise Undecided(next(told, reasons[-1]))
+
+    def flow(self, *times: Ends, **state: Ends) -> Theorem:
+        """Enclose where the solutions from a state, or a box, are at times: flow(1, 10, p="-8.4").
+
+        Of a system with flow = "validated", whose walls or section do not end it here. The time may
+        be given by its name as well.
+        """
+        from proofs.methods.tubes import prove_states
+
+        given = state.pop(self._file.time, ())
+        own, box = self._plain(state)
+        moments = [self._moment(each) for each in (*times, *([given] if given else []))]
+        if not moments:
+            raise ValueError(f"a time is expected: {self._file.time}=...")
+        file, steps = prove_states(own, moments, box)
+        return theorem_of(file, steps)
+
+    def tube(self, until: Ends, **state: Ends) -> Any:
+        """Enclose the solutions at all times up to one, as far as is proved: `methods.tubes.Tube`.
+
+        Beside `flow` it has no certificate; `report.figures.tube.drawn` is its picture.
+        """
+        from proofs.methods.tubes import tube
+
+        own, box = self._plain(state)
+        return tube(own, self._moment(until), box)
+
+    def _plain(self, state: Mapping[str, Ends]) -> tuple[Mapping[str, Any], tuple[Any, ...]]:
+        """Return the flow of a system, and the box of a state."""
+        own = self.functions[next(iter(self.functions))]
+        if "field" not in own:
+            raise ValueError('the flow is one of closed forms: give flow = "validated" to the file')
+        return own, box_of(self.variables, state)
+
+    def _moment(self, time: Ends) -> Any:
+        low, high = ends_of(time)
+        if low != high or low <= 0:
+            raise ValueError(f"a time {self._file.time} > 0 is expected, one number")
+        return low
 
     def graze(self, *, wall: str = "", **state: Ends) -> Theorem:
         """Prove that a value of the variable with a range is followed by a graze, if one is found.

@@ -68,6 +68,7 @@ _QUESTIONS = {
         "trapping:X=A:B,Y=C:D",
         _SIDE,
     ),
+    "flow": Question("where the solutions are at a time", "flow:T=10,X=A,Y=B:C", _STATE),
     "impact": Question(
         "it is known what comes after these states: an impact, none ever, or no flight",
         "impact:X=A,Y=B:C",

@@ -146,8 +146,8 @@ class Flow:
         values, rows = self._known[key]
         return finer(values, spare), [finer(row, spare) for row in rows]
 
-    def _map(self, w: Point) -> tuple[Point, Matrix]:
-        """Enclose values and derivatives for all w."""
+    def journey(self, w: Point) -> Journey:
+        """Return the solutions for all w, the parameters in ranges among them, at their start."""
         solutions = Solutions.of(self.equation, w)
         everywhere, middle = map(self._at_start, (w, solutions.middle))
         if self.end.is_time and self.section.gap.at(everywhere)[0].lo <= 0:
@@ -157,10 +157,15 @@ class Flow:
             for row in self.start.jacobian(everywhere)
         ]
         begin = solutions.begin(self.start.values(middle), slopes)
-        arrival = Journey(solutions, self.section, begin).arrive()
+        return Journey(solutions, self.section, begin)
+
+    def _map(self, w: Point) -> tuple[Point, Matrix]:
+        """Enclose values and derivatives for all w."""
+        journey = self.journey(w)
+        arrival = journey.arrive()
         derivative = multiply(self.outcome.jacobian(arrival.all), arrival.derivative)
         middle = reduce(hulls, map(self.outcome.values, arrival.middle))
-        mean = moved(middle, derivative, solutions.q)
+        mean = moved(middle, derivative, journey.solutions.q)
         return list(map(Enclosure.meet, mean, self.outcome.values(arrival.all))), derivative
 
     def _at_start(self, w: Point) -> Point:
