@@ -7,26 +7,25 @@ exactly one periodic orbit of least period 4 that begins at ...
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from copy import copy
 from fractions import Fraction
 from typing import Any, Self
 
 from intervals import Undecided
-from proofs.methods.grammar import GrammarError, canonical, exact, name, names, typed
+from proofs.methods.ends import Ends, Exact, box_of, exact_sides, listed, optional
+from proofs.methods.grammar import GrammarError, canonical, name, names, typed
 from proofs.theorem import Theorem
 from proofs.trusted.certificate import Malformed, texts
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.numbers import Range, show
+from proofs.trusted.numbers import Range
 
-Exact = int | Fraction | str
-Ends = Exact | Sequence[Exact]  # a number, or both ends of an interval
 Box = Mapping[str, Sequence[Exact]]  # by variables
 
 _DIGITS, _BITS = 12, 128  # of images
 EFFORT = 3
 _POINTS, _PASSED, _LONGEST = 1500, 4, 8  # of a picture; periods that are looked for
-_SIDE = ("-3", "3")  # of a box where points are looked for, if none is given
+_SIDE = Fraction(-3), Fraction(3)  # of a box where points are looked for, if none is given
 
 
 class Map:
@@ -302,7 +301,7 @@ class Map:
             )
         periods = self._kernel.periods(_BITS)
         around = [
-            (Fraction(0), periods[i].range[1]) if i in periods else ends_of(_SIDE)
+            (Fraction(0), periods[i].range[1]) if i in periods else _SIDE
             for i in range(len(self.variables))
         ]
         return [sides.get(each, side) for each, side in zip(self.variables, around, strict=True)]
@@ -327,48 +326,3 @@ class Map:
 def theorem_of(file: Any, steps: Sequence[str]) -> Theorem:
     """Return what some steps conclude, with their certificate."""
     return Theorem(tuple(map(file.conclusion, steps)), file.certificate(*steps))
-
-
-def optional(parameters: Mapping[str, Ends], periods: Mapping[str, str]) -> dict[str, Any]:
-    """Return the fields of a function for parameters and angles, where it has some."""
-    ranges = {each: texts(ends) for each, ends in exact_sides(parameters).items()}
-    angles = {name(each): canonical(period) for each, period in periods.items()}
-    fields = {"parameters": ranges, "periods": angles}
-    return {field: value for field, value in fields.items() if value}
-
-
-def box_of(variables: Sequence[str], state: Mapping[str, Ends]) -> tuple[Range, ...]:
-    """Return the sides of a box of states, in the order of the variables."""
-    sides = exact_sides(state)
-    if {*sides} != {*variables}:
-        wanted = ", ".join(f"{typed(each)}=..." for each in variables)
-        raise ValueError(f"a value for each variable is expected: {wanted}")
-    return tuple(sides[each] for each in variables)
-
-
-def exact_sides(values: Mapping[str, Ends]) -> dict[str, Range]:
-    """Return both ends for each name as the checker has it; what is wrong is said with the name."""
-    sides: dict[str, Range] = {}
-    for each, ends in values.items():
-        try:
-            sides[name(each)] = ends_of(ends)
-        except (ValueError, TypeError) as error:
-            raise type(error)(f"{each}: {error}") from None
-    return sides
-
-
-def listed(names: Iterable[str]) -> str:
-    """Return names as they were typed."""
-    return ", ".join(map(typed, names))
-
-
-def ends_of(values: Ends) -> Range:
-    """Return both ends of an interval, equal for a number; exact, so no floats."""
-    if isinstance(values, str) or not isinstance(values, Sequence):
-        return exact(values), exact(values)
-    if len(values) != 2:
-        raise ValueError(f"a number or two ends are expected, not {len(values)} numbers")
-    low, high = map(exact, values)
-    if low > high:
-        raise ValueError(f"interval reversed: {show(low)} > {show(high)}")
-    return low, high

@@ -21,7 +21,7 @@ from html import escape
 
 from intervals import Undecided, decimal_bounds
 from intervals.exact import whole
-from proofs.map import Ends, Exact, ends_of
+from proofs.methods.ends import Ends, Exact, ends_of
 from proofs.methods.grammar import exact
 from proofs.motion.digits import MOST_DIGITS
 from proofs.motion.system import System

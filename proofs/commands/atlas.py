@@ -22,7 +22,7 @@ from pathlib import Path
 from typing import Any
 
 from proofs.commands.system import add_subject, subject
-from proofs.map import ends_of
+from proofs.methods.ends import ends_of
 from proofs.plane import summary
 from proofs.plane.head import executor, run
 from proofs.plane.store import LINES, SAMPLE, Held, Store, file_of, opened

@@ -24,7 +24,8 @@ from types import MappingProxyType
 from typing import Any, NamedTuple, TypeVar
 
 from intervals import Undecided
-from proofs.map import EFFORT, Ends, Map
+from proofs.map import EFFORT, Map
+from proofs.methods.ends import Ends
 from proofs.shell.backstop import Overrun, within
 from proofs.shell.cli import Parser, heard, number, progress, share, whole
 from proofs.shell.files import write_files

@@ -111,9 +111,9 @@ class Mesh:
         turns = np.floor((lifted - self.origin + _NEAR) / math.tau).astype(np.int64)
         images = self.made.phases[parents]
         phases = self.inverse(branch, images, turns)
-        known = np.sort(self.made.phases)
-        place = np.clip(np.searchsorted(known, phases), 1, len(known) - 1)
-        gap = np.minimum(abs(known[place] - phases), abs(known[place - 1] - phases))
+        cuts = np.sort(self.made.phases)
+        place = np.clip(np.searchsorted(cuts, phases), 1, len(cuts) - 1)
+        gap = np.minimum(abs(cuts[place] - phases), abs(cuts[place - 1] - phases))
         low, high = self.branches[branch].phases
         keep = (gap > 1e-12) & (low < phases) & (phases < high)
         _, first = np.unique(phases, return_index=True)
@@ -135,14 +135,14 @@ class Mesh:
     def grow(self, goal: float, most: int, steps: int) -> Followed:
         """Cut where most is lost, until that is below the goal, or there are so many cuts."""
         while True:
-            found = Followed.of(self, steps)
-            if found.lost.sum() < goal or len(self.made.phases) >= most:
-                return found
+            followed = Followed.of(self, steps)
+            if followed.lost.sum() < goal or len(self.made.phases) >= most:
+                return followed
             before = len(self.made.phases)
-            for branch, (lifted, parents) in found.wanted().items():
+            for branch, (lifted, parents) in followed.wanted().items():
                 self.add_preimages(branch, np.array(lifted), np.array(parents))
             if len(self.made.phases) == before:
-                return found
+                return followed
 
     def leaning(self, steps: Floats) -> Cutting:
         """Return all cuts in order, moved so that their images lean to what is absorbed sooner.
@@ -309,9 +309,9 @@ def _absorbed(
     count = len(moving)
     met = links.common > _NEAR
     source, target = links.source[met], links.target[met]
-    found = np.where(landed, 1.0, np.inf)
-    found[-1] = 0.0
+    counts = np.where(landed, 1.0, np.inf)
+    counts[-1] = 0.0
     for n in range(1, steps + 1):
-        open_ones = np.bincount(source, np.isinf(found)[target], minlength=count)
-        found = np.where(np.isinf(found) & moving & (open_ones == 0), float(n), found)
-    return found
+        open_ones = np.bincount(source, np.isinf(counts)[target], minlength=count)
+        counts = np.where(np.isinf(counts) & moving & (open_ones == 0), float(n), counts)
+    return counts

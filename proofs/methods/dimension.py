@@ -115,25 +115,25 @@ def dimension(
     last = "no ellipse is mapped into itself"
     for rho in ellipses(samples, hull, digits):
         ellipse = Ellipse(hull, rho)
-        known = Remembered(Formulas(formula, ellipse))
+        remembered = Remembered(Formulas(formula, ellipse))
         try:
-            arcs = enough_arcs(partial(_maps_into_itself, known, ellipse))
+            arcs = enough_arcs(partial(_maps_into_itself, remembered, ellipse))
             break
         except Unproved as error:
             last = str(error)
     else:
         raise Undecided(last)
     tell("a test function for the dimension")
-    trial, by = candidate(known, ellipse, arcs, digits)
+    trial, by = candidate(remembered, ellipse, arcs, digits)
     tell("the operator's inequality, on all of the interval")
     try:
-        found = growth(known, trial, by)
-        bounds = found.dimension(by.bits)
+        bounded = growth(remembered, trial, by)
+        bounds = bounded.dimension(by.bits)
     except Unproved as error:
         raise Undecided(str(error)) from error
     if bounds[1] - bounds[0] > Fraction(1, 10**digits):
         raise Undecided(f"the dimension is proved within {float(bounds[1] - bounds[0]):.1e} only")
-    return Dimension(bounds, found, trial, by)
+    return Dimension(bounds, bounded, trial, by)
 
 
 # -- the ellipse -----------------------------------------------------------------------------------

@@ -55,13 +55,17 @@ def candidate(
     if count > _MOST_NODES:
         raise Undecided(f"{digits} digits need {count} nodes")
     table = _Table.of(branches, ellipse, count, goal + 16)
-    found = _Eigenfunction.rough(table.part(least[0], BITS), s)
+    eigenfunction = _Eigenfunction.rough(table.part(least[0], BITS), s)
     for bits, terms in zip(ladder, least[1:], strict=True):
-        found.refine(table.part(terms, bits + 16))
+        eigenfunction.refine(table.part(terms, bits + 16))
     unit = 10 ** (digits + guard)
-    h = tuple(Fraction(round(Fraction(c, 1 << found.bits) * unit), unit) for c in found.terms)
+    h = tuple(
+        Fraction(round(Fraction(c, 1 << eigenfunction.bits) * unit), unit)
+        for c in eigenfunction.terms
+    )
     s, mean = (
-        Fraction(round(Fraction(x, 1 << found.bits) * unit), unit) for x in (found.s, found.mean)
+        Fraction(round(Fraction(x, 1 << eigenfunction.bits) * unit), unit)
+        for x in (eigenfunction.s, eigenfunction.mean)
     )
     by = Collocation(ellipse, arcs, len(h), mean, goal + 16)
     return Trial(s, h), by
@@ -192,13 +196,13 @@ class _Eigenfunction:
         import numpy as np
         from numpy.polynomial.chebyshev import chebvander
 
-        last, one = len(self.terms) - 1, 1 << self.bits
-        h = np.array([c / one for c in self.terms])
+        last, unit = len(self.terms) - 1, 1 << self.bits
+        h = np.array([c / unit for c in self.terms])
         here = chebvander(table.float(table.nodes), last)
-        total, by_s = -here * (self.mean / one), 0 * h
+        total, by_s = -here * (self.mean / unit), 0 * h
         for images, rates in zip(table.images, table.rates, strict=True):
             rate = table.float(rates)
-            part = np.exp(self.s / one * rate)[:, None] * chebvander(table.float(images), last)
+            part = np.exp(self.s / unit * rate)[:, None] * chebvander(table.float(images), last)
             total, by_s = total + part, by_s + rate * (part @ h)
         total[:, 0] = by_s if self.given is None else -(here @ h)
         return total

@@ -109,5 +109,5 @@ def _step(rate: Compiled, w: Floats, x: Floats, t: Floats, h: Floats) -> tuple[F
         for j, other in enumerate(table[-1] if table else [], 1):
             line.append(line[-1] + (line[-1] - other) / ((n / _ROW[len(table) - j]) ** 2 - 1))
         table.append(line)
-    last, known = table[-1][-1], table[-1][-2]
-    return last, (np.abs(last - known) / (1 + np.abs(last))).max(axis=0)
+    last, previous = table[-1][-1], table[-1][-2]
+    return last, (np.abs(last - previous) / (1 + np.abs(last))).max(axis=0)

@@ -62,8 +62,8 @@ def enclosed(formula: Formulas, box: Box) -> Values:
     centre = [Interval(*side) for side in point_box(centre_of(box))]
     steps, result = [a - m for a, m in zip(x, centre, strict=True)], []
     parts = (values(formula, x), values(formula, centre), jacobian(formula, x))
-    for whole, value, row in zip(*parts, strict=True):
-        common = whole.intersection(dot(row, steps) + value)
+    for natural, value, row in zip(*parts, strict=True):
+        common = natural.intersection(dot(row, steps) + value)
         if common is None:
             raise Undecided("two enclosures of the same values are disjoint")
         result.append(common)

@@ -189,9 +189,9 @@ def _power(node: ast.BinOp, text: str) -> ast.expr:
         raise GrammarError("an exponent is a multiple of 1/2")
     if value == 0:
         return _parsed("1")
-    whole = int(value - Fraction(1, 2)) if value.denominator == 2 else int(value)
+    exponent = int(value - Fraction(1, 2)) if value.denominator == 2 else int(value)
     root = f"sqrt({base})" if value.denominator == 2 else ""
-    factors = [f"({base})**{whole}" if whole != 1 else f"({base})"] if whole else []
+    factors = [f"({base})**{exponent}" if exponent != 1 else f"({base})"] if exponent else []
     return _parsed("*".join([*factors, *([root] if root else [])]))
 
 

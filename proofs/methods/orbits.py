@@ -86,7 +86,7 @@ class PeriodicPoint:
 
 
 def periodic_points(
-    of: ExpandingMap,
+    expanding: ExpandingMap,
     words: Words,
     digits: int,
     tell: Callable[[str], None] = lambda stage: None,
@@ -97,28 +97,28 @@ def periodic_points(
     times the largest absolute value in its domain. Raises Undecided where that is not reached.
     """
     tell(f"{len(words.texts)} words in binary64")
-    starts, symbols = find_points(of, words).tolist(), words.symbols.tolist()
+    starts, symbols = find_points(expanding, words).tolist(), words.symbols.tolist()
     length, rows = len(words.texts[0]), dict[int, PeriodicPoint]()
     for cycle in words.cycles:
         tell(f"{len(rows)} of {len(words.texts)} words to {digits} digits")
         letters, first = [symbols[i] for i in cycle], [starts[i] for i in cycle]
-        points, once = _enclose_orbit(of, letters, first, digits, length // len(cycle))
+        points, once = _enclose_orbit(expanding, letters, first, digits, length // len(cycle))
         for i, point in zip(cycle, points, strict=True):
             ends = (point.inf, point.sup), (once.inf, once.sup)
             rows[i] = PeriodicPoint(words.texts[i], len(cycle), *ends)
     return [rows[i] for i in range(len(words.texts))]
 
 
-def find_points(of: ExpandingMap, words: Words) -> Floats:
+def find_points(expanding: ExpandingMap, words: Words) -> Floats:
     """Return about p(w), within the domains: x(w) moves to the preimage of x(s w), repeatedly."""
     low, high = (
-        np.array([rounded(domain[end]) for domain in of.domains])[words.symbols]
+        np.array([rounded(domain[end]) for domain in expanding.domains])[words.symbols]
         for end, rounded in enumerate((float_up, float_down))
     )
     x: Floats = 0.5 * (low + high)
     before = np.inf
     for _ in range(_MOST_SWEEPS):
-        value, slope = of.approximate(words.symbols, x)
+        value, slope = expanding.approximate(words.symbols, x)
         moved: Floats = np.clip(x + (x[words.following] - value) / slope, low, high)
         change, x = float(np.max(np.abs(moved - x))), moved
         if not (change < before or change > _COARSE * np.max(np.abs(x))):
@@ -130,22 +130,26 @@ def find_points(of: ExpandingMap, words: Words) -> Floats:
 
 
 def _enclose_orbit(
-    of: ExpandingMap, symbols: Sequence[int], starts: Sequence[float], digits: int, power: int
+    expanding: ExpandingMap,
+    symbols: Sequence[int],
+    starts: Sequence[float],
+    digits: int,
+    power: int,
 ) -> tuple[list[Interval], Interval]:
     """Enclose the points of an orbit, and a power of its multiplier, by (2) to (4) pass by pass."""
     precision = (digits + _SPARE_DIGITS) * 10 // 3 + _GUARD_BITS
-    domains = [Interval(*of.domains[j], precision=precision) for j in symbols]
-    scales = [max(map(abs, of.domains[j])) / 10**digits for j in symbols]
+    domains = [Interval(*expanding.domains[j], precision=precision) for j in symbols]
+    scales = [max(map(abs, expanding.domains[j])) / 10**digits for j in symbols]
     centres = [Interval.from_float(x, precision=precision) for x in starts]
     boxes = list[Interval]()
     before: Fraction | float = math.inf
     while True:
         ahead = [*centres[1:], centres[0]]
-        defects = [of.defect(*each) for each in zip(symbols, centres, ahead, strict=True)]
+        defects = [expanding.defect(*each) for each in zip(symbols, centres, ahead, strict=True)]
         if not boxes:
-            reach = max(defect.mag for defect in defects) / (of.expansion - 1)
+            reach = max(defect.mag for defect in defects) / (expanding.expansion - 1)
             boxes = [_common(x.widen(reach), y) for x, y in zip(centres, domains, strict=True)]
-        slopes = _slopes(of, symbols, centres, boxes, defects)
+        slopes = _slopes(expanding, symbols, centres, boxes, defects)
         moves = zip(centres, corrections(defects, slopes), boxes, strict=True)
         points = [_common(centre + move, box) for centre, move, box in moves]
         multiplier = math.prod(slopes[1:], start=slopes[0]) ** power
@@ -162,7 +166,7 @@ def _enclose_orbit(
 
 
 def _slopes(
-    of: ExpandingMap,
+    expanding: ExpandingMap,
     symbols: Sequence[int],
     centres: Sequence[Interval],
     boxes: Sequence[Interval],
@@ -171,7 +175,7 @@ def _slopes(
     """Enclose f' on the segments from x_i, in centres, to p_i, in boxes: the S_i of (3)."""
     ahead = [*range(1, len(boxes)), 0]
     return [
-        of.slope(j, boxes[i].hull(centres[i]), boxes[k].hull(centres[k] + defects[i]))
+        expanding.slope(j, boxes[i].hull(centres[i]), boxes[k].hull(centres[k] + defects[i]))
         for i, (j, k) in enumerate(zip(symbols, ahead, strict=True))
     ]
 

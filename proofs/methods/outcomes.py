@@ -129,9 +129,9 @@ def _touches(flight: Flight, box: Box, axis: int) -> Iterator[tuple[float, float
         jumps = np.flatnonzero(np.abs(first - last) > _LATER)
     for k in jumps:
         point[axis] = low[k]
-        known = _polished(flight, point[:, 0], axis, min(first[k], last[k]))
-        if all(map(math.isfinite, known)):
-            yield known
+        touch = _polished(flight, point[:, 0], axis, min(first[k], last[k]))
+        if all(map(math.isfinite, touch)):
+            yield touch
 
 
 def _polished(flight: Flight, x: Floats, axis: int, time: float) -> tuple[float, float]:

@@ -151,10 +151,10 @@ class Sampled:
     @cached_property
     def periods(self) -> Floats:
         """The period of each variable, inf for one that is no angle."""
-        known = self.map.periods(_BITS)
+        lengths = self.map.periods(_BITS)
         return np.array(
             [
-                float(sum(known[i].range) / 2) if i in known else np.inf
+                float(sum(lengths[i].range) / 2) if i in lengths else np.inf
                 for i in range(len(self.map.variables))
             ]
         )

@@ -55,9 +55,9 @@ def common(piece: Range, state: Range) -> Range | None:
     return (low, high) if low < high else None
 
 
-def between(one: Range, two: Range) -> Range | None:
+def between(first: Range, second: Range) -> Range | None:
     """Return what certainly lies between two enclosed numbers: the image of an interval has it."""
-    low, high = min(one[1], two[1]), max(one[0], two[0])
+    low, high = min(first[1], second[1]), max(first[0], second[0])
     return (low, high) if low < high else None
 
 
@@ -90,14 +90,14 @@ def _images(
     pieces: Sequence[Range], image: Image, parts: Iterable[tuple[int, Range]], places: int
 ) -> set[Range]:
     """Return the images of parts of pieces, rounded inward."""
-    unit, found = Fraction(1, 10**places), set()
+    unit, rounded = Fraction(1, 10**places), set()
     for index, state in parts:
-        whole = arc(pieces, image, index, state)
-        if whole is not None:
-            low, high = -(-whole[0] // unit) * unit, whole[1] // unit * unit
+        image_arc = arc(pieces, image, index, state)
+        if image_arc is not None:
+            low, high = -(-image_arc[0] // unit) * unit, image_arc[1] // unit * unit
             if low < high:
-                found.add((low, high))
-    return found
+                rounded.add((low, high))
+    return rounded
 
 
 def largest_subshift(
@@ -141,11 +141,11 @@ def _choices(
     sources, choices = [], []
     for i, state in enumerate(states):
         for index in range(len(pieces)):
-            whole = arc(pieces, image, index, state)
-            if whole is None:
+            image_arc = arc(pieces, image, index, state)
+            if image_arc is None:
                 continue
-            inside = (low_ranks >= bisect_left(lows, whole[0])) & (
-                high_ranks < bisect_right(highs, whole[1])
+            inside = (low_ranks >= bisect_left(lows, image_arc[0])) & (
+                high_ranks < bisect_right(highs, image_arc[1])
             )
             if inside.any():
                 sources.append(i)
@@ -181,15 +181,15 @@ class Ceiling:
     growth: Fraction
 
 
-def outer_tower(whole: Range, images: Images, depth: int, places: int) -> list[Range]:
+def outer_tower(interval: Range, images: Images, depth: int, places: int) -> list[Range]:
     """Return an interval, and what holds the images of its parts, of theirs, and so on.
 
     They are rounded outward to decimals, but stay in the interval, which contains all images.
     """
-    unit, states, fresh = Fraction(1, 10**places), {whole}, {whole}
+    unit, states, fresh = Fraction(1, 10**places), {interval}, {interval}
     for _ in range(depth):
         outer = {
-            (max(whole[0], low // unit * unit), min(whole[1], -(-high // unit) * unit))
+            (max(interval[0], low // unit * unit), min(interval[1], -(-high // unit) * unit))
             for state in fresh
             for low, high in images(state)
         }

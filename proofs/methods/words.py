@@ -42,12 +42,12 @@ class Words:
     @cached_property
     def cycles(self) -> list[list[int]]:
         """The indices of w, s w, ... for each orbit: as many as its minimal period."""
-        following, found, seen = self.following.tolist(), [], set[int]()
+        following, cyclic, seen = self.following.tolist(), [], set[int]()
         for first in range(len(following)):
             if first not in seen:
                 cycle = [first]
                 while (index := following[cycle[-1]]) != first:
                     cycle.append(index)
-                found.append(cycle)
+                cyclic.append(cycle)
                 seen.update(cycle)
-        return found
+        return cyclic

@@ -40,7 +40,7 @@ class _Part(NamedTuple):
 
 def cover_by(
     flights: FlightBox,
-    accept: Callable[[Seen], bool] = lambda found: found.transversal,
+    accept: Callable[[Seen], bool] = lambda covered: covered.transversal,
     *,
     obstacle: str = "grazing",
     horizon: Fraction = HORIZON,
@@ -61,10 +61,10 @@ def cover_by(
         most, failure = 16, Undecided(f"{obstacle} near phase {float(phases[0]):.9g}")
         try:
             finest = steps_for(phases)
-            found = march(part.flights, part.bits, horizon, finest, part.excluded)
-            if accept(found):
-                return found
-            excluded[phases] = found.excluded
+            seen = march(part.flights, part.bits, horizon, finest, part.excluded)
+            if accept(seen):
+                return seen
+            excluded[phases] = seen.excluded
         except Sticks:
             raise
         except NoImpact as error:
@@ -93,7 +93,7 @@ def cover_by(
 
     first = _Part(flights, 0, FLOATS if floats else COVER_BITS)
     try:
-        return [found for _, found in cover([first], decide, split, limit=limit)]
+        return [covered for _, covered in cover([first], decide, split, limit=limit)]
     except PartsExhausted:
         raise Undecided(f"{limit} parts of {name_of(flights.phases)} do not suffice") from None
 

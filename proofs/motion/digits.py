@@ -47,14 +47,14 @@ def to_digits(
     reason = ""
     for attempt in range(_ATTEMPTS):
         try:
-            found = make(bits_for(digits, attempt))
+            answer = make(bits_for(digits, attempt))
         except final:
             raise
         except (Undecided, DomainError, Unproved) as failure:  # a slow impact asks for more bits
             reason = str(failure)
             continue
-        if all(agree(each, digits + 1) for each in bounds(found)):
-            return found
+        if all(agree(each, digits + 1) for each in bounds(answer)):
+            return answer
     reason = reason or "the result is too close to 0 or to grazing"
     raise Undecided(f"{digits} digits are not reached: {reason}")
 

@@ -32,10 +32,10 @@ class InverseBranch:
     @property
     def turns(self) -> int:
         """The turns of the table that leave the image of the middle of the domain in [0, 2 pi)."""
-        found = next_impact(self.system, self._middle)
-        if found is None:
+        impact = next_impact(self.system, self._middle)
+        if impact is None:
             raise Undecided("no first impact in floating point")
-        return round((self._middle + found[0] - found[1]) / math.tau)
+        return round((self._middle + impact[0] - impact[1]) / math.tau)
 
     @property
     def _middle(self) -> float:
@@ -46,11 +46,11 @@ class InverseBranch:
 
         Newton's method for gap(y, x - y + 2 pi turns) = 0, from one number to the next.
         """
-        ahead, y, found = math.tau * self.turns, complex(self._middle), []
+        ahead, y, values = math.tau * self.turns, complex(self._middle), []
         for x in path:
             y, rate = self._solve(x + ahead, y)
-            found.append((y, rate))
-        return found
+            values.append((y, rate))
+        return values
 
     def _solve(self, x: complex, y: complex) -> tuple[complex, complex]:
         eta = float(self.system.eta)

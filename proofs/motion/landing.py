@@ -54,9 +54,9 @@ def separation(
         raise Undecided("the mass sticks nowhere: there is no separation phase")
     phase = separation_phase(system, bits)
     at = system.place
-    found = locate(FlightBox.plastic(at, phase, separating=True), floats=floats, horizon=horizon)
-    time = impact_time(found.flights, found.windows[0], bits - 10)
-    return {"phase": texts(phase), "times": texts(found.times), "time": texts(time)}
+    seen = locate(FlightBox.plastic(at, phase, separating=True), floats=floats, horizon=horizon)
+    time = impact_time(seen.flights, seen.windows[0], bits - 10)
+    return {"phase": texts(phase), "times": texts(seen.times), "time": texts(time)}
 
 
 def zero(motion: Motion, time: Fraction, order: int) -> Fraction:

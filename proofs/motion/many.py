@@ -44,8 +44,8 @@ def _clock(eta: Any, times: Floats) -> Clock:
 
 def float_gap(side: int, eta: Any, nu: Any, phases: Any, times: Any) -> Floats:
     """Return about the gap at times after launches; arrays broadcast."""
-    found: Floats = gap(_launch(side, eta, nu, phases), _clock(eta, times))
-    return found
+    heights: Floats = gap(_launch(side, eta, nu, phases), _clock(eta, times))
+    return heights
 
 
 def next_impacts(side: int, eta: Any, nu: Any, phases: Any, horizon: float) -> Impacts:
@@ -58,7 +58,7 @@ def next_impacts(side: int, eta: Any, nu: Any, phases: Any, horizon: float) -> I
     bend = np.abs(nu) + eta * np.hypot(eta * (1 + start.lift), start.rate)
     rounding = np.maximum(1e-13, 1e-15 * (2 + 2 * np.abs(nu) + np.abs(start.rate) / eta))
     times = np.minimum(1.0, push / (2 * (np.abs(nu) + eta * bend)))
-    found, slopes = np.full(eta.size, math.nan), np.full(eta.size, math.nan)
+    hits, slopes = np.full(eta.size, math.nan), np.full(eta.size, math.nan)
     left = np.flatnonzero(push > 0)
     for _ in range(_MOST_STEPS):
         if not left.size:
@@ -68,10 +68,10 @@ def next_impacts(side: int, eta: Any, nu: Any, phases: Any, horizon: float) -> I
         height, speed = gap(here, now), gap(here, now, 1)
         met = height < rounding[left]
         if met.any():
-            found[left[met]] = times[left[met]]
+            hits[left[met]] = times[left[met]]
             with np.errstate(all="ignore"):
                 slopes[left[met]] = slope(here, now)[met]
         ahead, speed, height = left[~met], speed[~met], height[~met]
         times[ahead] += (speed + np.sqrt(speed**2 + 2 * bend[ahead] * height)) / bend[ahead]
         left = ahead[times[ahead] < horizon]
-    return Impacts(*(x.reshape(shape) for x in (found, phases + found, slopes)))
+    return Impacts(*(x.reshape(shape) for x in (hits, phases + hits, slopes)))

@@ -70,8 +70,8 @@ def solutions(system: System, n: int, bits: int) -> list[SingleImpact]:
     for _ in range(_ATTEMPTS):
         phases, orbit = _phases(system, n, precision)
         if phases is not None and all(phase.wid * 2**bits <= 1 for phase in phases):
-            found = [_judged(system, n, phase, orbit, bits) for phase in phases]
-            return [*found, *_at_rest(system, n, precision)]
+            orbits = [_judged(system, n, phase, orbit, bits) for phase in phases]
+            return [*orbits, *_at_rest(system, n, precision)]
         precision *= 2
     raise Undecided(f"n = {n}: two solutions meet to within the precision")
 
@@ -184,22 +184,22 @@ def _known_records(eta: Fraction, most: int) -> frozenset[int]:
 
 def _by_flight(system: System, n: int, phase: Range) -> tuple[bool | None, str]:
     """Decide by the first impact of the flight, in ever smaller steps of time."""
-    whole, reason = Interval.pi(precision=128) * (2 * n), "the flight is too long to follow"
-    if whole.sup > _LONGEST:
+    period, reason = Interval.pi(precision=128) * (2 * n), "the flight is too long to follow"
+    if period.sup > _LONGEST:
         return None, reason
     flights = FlightBox.plastic(system.place, phase)
     for attempt in range(_ATTEMPTS):
         finest = Fraction(1, 2 ** (3 + 3 * attempt))
         try:
-            found = march(flights, COVER_BITS * (attempt + 1), whole.sup + 1, finest)
-            proved = found.proved()
+            seen = march(flights, COVER_BITS * (attempt + 1), period.sup + 1, finest)
+            proved = seen.proved()
         except (Undecided, Unproved) as failure:
             reason = str(failure)
             continue
         begin, end = proved.windows[-1]
-        if end < whole.inf:
+        if end < period.inf:
             return False, "an earlier impact"
-        if proved.transversal and begin < whole.inf and whole.sup < end:
+        if proved.transversal and begin < period.inf and period.sup < end:
             return True, "the first impact"
         reason = "the first impact is not told from one after n periods"
     return None, reason

@@ -147,10 +147,10 @@ def transients(
     states = [(generator.uniform(0, math.tau), generator.uniform(0, fastest)) for _ in range(count)]
     phases, speeds = (np.tile(each, len(epsilons)) for each in zip(*states, strict=True))
     every = np.repeat([float(epsilon) for epsilon in epsilons], count)
-    found = until_rest(system, every, phases, speeds, turns)
+    ends = until_rest(system, every, phases, speeds, turns)
     return [
         Summary(str(float(epsilon)), *(float(x) for x in (rests.mean(), last.mean(), median(last))))
         for epsilon, rests, last in zip(
-            epsilons, *(each.reshape(-1, count) for each in found), strict=True
+            epsilons, *(each.reshape(-1, count) for each in ends), strict=True
         )
     ]

@@ -36,10 +36,10 @@ def root(function: Function, about: float, bits: int) -> Range:
     """
     precision, reach = 2 * bits + 60, Fraction(1, 2**36)
     box = Interval(Fraction(about) - reach, Fraction(about) + reach, precision=precision)
-    found = newton(function, derivative(function), box)
-    if found.outcome is not Roots.UNIQUE or found.box is None:
-        raise Undecided(f"no root is isolated near {about:.9g}: {found.reason}")
-    return _changes_sign(function, around(found.box.mid, bits), precision)
+    isolated = newton(function, derivative(function), box)
+    if isolated.outcome is not Roots.UNIQUE or isolated.box is None:
+        raise Undecided(f"no root is isolated near {about:.9g}: {isolated.reason}")
+    return _changes_sign(function, around(isolated.box.mid, bits), precision)
 
 
 def _changes_sign(function: Function, ends: Range, precision: int) -> Range:

@@ -47,8 +47,8 @@ class Candidates:
         """
         shares, turns = self._shares
         low, width = (-tau - offset) / math.tau % 1, min(tau / math.pi, 1)
-        found = turns[bisect_left(shares, low) : bisect_right(shares, low + width)]
-        return sorted({*found, *turns[: bisect_right(shares, low + width - 1)]})
+        near = turns[bisect_left(shares, low) : bisect_right(shares, low + width)]
+        return sorted({*near, *turns[: bisect_right(shares, low + width - 1)]})
 
     def impact(self, phase: float) -> Candidate | None:
         """Return about where the first impact is, None if there is none."""
@@ -90,8 +90,8 @@ class Candidates:
             yield begin[0], high
 
     def _turn(self, phase: float) -> int | None:
-        found = self.impact(phase)
-        return None if found is None else found.turn
+        candidate = self.impact(phase)
+        return None if candidate is None else candidate.turn
 
     def _jumps(self, left: _Seen, right: _Seen) -> Iterator[tuple[_Seen, _Seen]]:
         """Yield neighbouring phases with impacts in different windows."""

@@ -270,7 +270,7 @@ def locate(flights: FlightBox, *, horizon: Fraction = HORIZON, floats: bool = Tr
         bits = FLOATS if floats and attempt < 2 else COVER_BITS * (attempt + 1)
         finest = Fraction(1, 2 ** (3 + 10 * attempt))
         try:
-            found = march(flights, bits, horizon, finest, excluded, single=True)
+            located = march(flights, bits, horizon, finest, excluded, single=True)
         except (NoImpact, Sticks):
             raise
         except Unsettled as failure:
@@ -278,9 +278,9 @@ def locate(flights: FlightBox, *, horizon: Fraction = HORIZON, floats: bool = Tr
         except (Undecided, *BLIND):
             continue
         else:
-            if found.transversal:
-                return found
-            excluded = found.excluded
+            if located.transversal:
+                return located
+            excluded = located.excluded
     seen = flights.touch_near((excluded[-1], excluded[-1])) if excluded else ""
     why = f": {seen}" if seen else " grazes, or starts to stick, to within what was tried"
     raise Undecided(f"phase {float(flights.phases[0]):.12g}{why}")

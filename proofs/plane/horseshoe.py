@@ -101,8 +101,8 @@ def _number(count: int) -> str:
 def _seen(box: Place, count: int) -> list[Sets]:
     """Return so many sets that are seen at the centre, and seem to fit all over a box."""
     etas, nus = corners(box)
-    found = symbols(_pieces(box.side, etas[0], nus[0]))
-    grown = [family for family in families(found, count) if len(family) == count]
+    letters = symbols(_pieces(box.side, etas[0], nus[0]))
+    grown = [family for family in families(letters, count) if len(family) == count]
     pairs = [sets for family in grown for sets in with_spare(family)]
     if not pairs:
         return []

@@ -105,11 +105,11 @@ def _sticks_at_centre(box: Place) -> bool:
     except Undecided:
         return False
     for _ in range(_MOST_IMPACTS):
-        found = next_impact(system, phase, _FARTHEST)
-        if found is None:
+        impact = next_impact(system, phase, _FARTHEST)
+        if impact is None:
             start = launch(system.side, float(system.eta), float(system.nu), phase)
             return bool(launch_acceleration(start) <= 0)
-        phase = found[1]
+        phase = impact[1]
     return False
 
 
@@ -292,17 +292,17 @@ def _orbits(box: Place) -> Iterator[list[Range]]:
     for cycle in islice(_cycles(box.side, etas[0], nus[0]), _TRIES):
         phases = np.array([cycle] * len(etas)).T
         for _ in range(_CLOSER):
-            found = next_impacts(box.side, etas, nus, phases, _FARTHEST)
-            before, phases = phases, _next_to(phases, np.roll(found.images, 1, axis=0))
+            impacts = next_impacts(box.side, etas, nus, phases, _FARTHEST)
+            before, phases = phases, _next_to(phases, np.roll(impacts.images, 1, axis=0))
             moved = float(np.abs(phases - before).max())
             if not moved > _NEAR:
                 break
-        steep = np.abs(found.slopes)
+        steep = np.abs(impacts.slopes)
         if moved <= _NEAR and (steep.prod(axis=0) < 1).all():
             phases = _next_to(phases[:, :1], phases)
             apart = np.abs(_next_to(phases[0], phases[1:]) - phases[0]).max(axis=1)
             period = 1 + int(np.append(np.flatnonzero(apart < 100 * _NEAR), len(apart))[0])
-            yield _cells(phases[:period], found.slopes[:period])
+            yield _cells(phases[:period], impacts.slopes[:period])
 
 
 def _next_to(phases: Floats, others: Floats) -> Floats:
@@ -313,9 +313,9 @@ def _next_to(phases: Floats, others: Floats) -> Floats:
 def _cycles(sign: int, eta: float, nu: float) -> Iterator[list[float]]:
     """Yield cycles of a grid of phases, each sent to the one next to its image, that contract."""
     phases = math.tau * (np.arange(_GRID) + 0.5) / _GRID
-    found = next_impacts(sign, eta, nu, phases, _FARTHEST)
-    none = np.isnan(found.images)
-    onward = np.where(none, 0, found.images % math.tau / math.tau * _GRID).astype(int) % _GRID
+    impacts = next_impacts(sign, eta, nu, phases, _FARTHEST)
+    none = np.isnan(impacts.images)
+    onward = np.where(none, 0, impacts.images % math.tau / math.tau * _GRID).astype(int) % _GRID
     onward = np.append(np.where(none, _GRID, onward), _GRID)
     points = np.arange(_GRID)
     for _ in range(_TRANSIENT):
@@ -327,7 +327,7 @@ def _cycles(sign: int, eta: float, nu: float) -> Iterator[list[float]]:
             seen.add(here)
             cycle.append(here)
             here = int(onward[here])
-        if cycle and here == start and np.abs(found.slopes[cycle]).prod() < 1:
+        if cycle and here == start and np.abs(impacts.slopes[cycle]).prod() < 1:
             yield [float(phases[k]) for k in cycle]
 
 

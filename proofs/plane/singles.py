@@ -63,9 +63,11 @@ def _seen(part: Part) -> Seen:
     sine, cosine = np.sin(math.pi * part.n * eta), np.cos(math.pi * part.n * eta)
     turn = part.signed(sine, cosine)
     with np.errstate(all="ignore"):
-        found = solution(Numbers(eta, nu, q), turn, part.leans, lambda x: np.sqrt(np.maximum(x, 0)))
-        start = launched(part, Numbers(eta, nu, q), turn, found)
-        left = (found.delta > 0) & (found.above / found.below > 0) & (found.flips < 0)
+        solved = solution(
+            Numbers(eta, nu, q), turn, part.leans, lambda x: np.sqrt(np.maximum(x, 0))
+        )
+        start = launched(part, Numbers(eta, nu, q), turn, solved)
+        left = (solved.delta > 0) & (solved.above / solved.below > 0) & (solved.flips < 0)
         if start.kick is None:
             left &= launch_acceleration(start) > 0
     times = math.tau * part.n * (np.arange(_TIMES * part.n - 1) + 1) / (_TIMES * part.n)

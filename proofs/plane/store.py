@@ -114,8 +114,8 @@ class Store:
 
     def row(self, key: str) -> Row | None:
         """Return the row of a cell, None where there is none."""
-        found = self._rows.execute(f"SELECT {_FIELDS} FROM cells WHERE key = ?", (key,)).fetchone()
-        return None if found is None else Row._make(found)
+        entry = self._rows.execute(f"SELECT {_FIELDS} FROM cells WHERE key = ?", (key,)).fetchone()
+        return None if entry is None else Row._make(entry)
 
     def total(self, column: str) -> float:
         """Return the sum over all rows, of `work` or `seconds`."""
@@ -179,16 +179,16 @@ def opened(folder: Path, region: Region | None) -> Iterator[Store]:
     if region is None and not path.is_file():
         raise Held(f"there is no {path}")
     with _locked(folder), _told(path), closing(sqlite3.connect(path)) as connection:
-        known = None
+        begun = None
         with suppress(sqlite3.OperationalError):  # no table yet
-            known = connection.execute("SELECT text FROM region").fetchone()
-        own = region if known is None else _read(path, str(known[0]))
+            begun = connection.execute("SELECT text FROM region").fetchone()
+        own = region if begun is None else _read(path, str(begun[0]))
         if own is None:
             raise Held(f"{path} has no region: its run ended before it began")
         if region not in (None, own):
             raise Held(f"{path} is about another region or question: choose a folder by --out")
         connection.executescript(_TABLES)
-        if known is None:
+        if begun is None:
             with connection:
                 connection.execute("INSERT INTO region VALUES (?)", (own.text,))
         yield Store(connection, own)

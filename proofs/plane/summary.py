@@ -36,8 +36,8 @@ def words(kind: str) -> str:
     name, *periods = kind.split("-")
     if name == "StableSingles" and not periods:
         return "no stable single-impact orbit"
-    told = _WORDS.get(name, re.sub(r"(?<!^)(?=[A-Z])", " ", name).lower())
-    return f"{told}: n = {', '.join(periods)}" if periods else told
+    phrase = _WORDS.get(name, re.sub(r"(?<!^)(?=[A-Z])", " ", name).lower())
+    return f"{phrase}: n = {', '.join(periods)}" if periods else phrase
 
 
 def kinds(names: Iterable[str]) -> list[str]:
@@ -64,9 +64,9 @@ def summary(store: Store) -> dict[str, Any]:
             areas[cell.kind] += size
         else:
             reasons[cell.conclusion] += 1
-    whole = area(region.sides_of)
-    areas[LEFT_OUT] = whole - sum(map(area, region.roots), Fraction(0))
-    areas[NOT_YET] = whole - areas[LEFT_OUT] - sum(areas[name] for name in _VERDICTS)
+    plane = area(region.sides_of)
+    areas[LEFT_OUT] = plane - sum(map(area, region.roots), Fraction(0))
+    areas[NOT_YET] = plane - areas[LEFT_OUT] - sum(areas[name] for name in _VERDICTS)
     named = (*_VERDICTS, *kinds(counts), NOT_YET, LEFT_OUT)
     return {
         **json.loads(region.text),
@@ -74,7 +74,7 @@ def summary(store: Store) -> dict[str, Any]:
         "opposite": region.asked.opposite,
         "parts": [dict(zip(region.names, map(texts, root), strict=True)) for root in region.roots],
         "cells": dict(cells),
-        "share_of_area": {name: floor_text(areas[name] / whole) for name in named},
+        "share_of_area": {name: floor_text(areas[name] / plane) for name in named},
         "kinds": {kind: counts[kind] for kind in kinds(counts)},
         "undecided_because": dict(reasons.most_common(8)),
         "cpu_seconds": f"{store.total('seconds'):.1f}",
@@ -116,16 +116,16 @@ def merged(keys: Iterable[str]) -> list[str]:
 
 def joined(boxes: Iterable[Box]) -> list[Box]:
     """Return fewer boxes that are the same part of the plane: those side by side are one."""
-    found = list(boxes)
+    parts = list(boxes)
     for axis in (0, 1):
         rows = defaultdict[Range, list[Range]](list)
-        for box in sorted(found):
+        for box in sorted(parts):
             sides = rows[box[1 - axis]]
             before = sides.pop() if sides and sides[-1][1] == box[axis][0] else box[axis]
             sides.append((before[0], box[axis][1]))
         runs = [(side, other) for other, sides in rows.items() for side in sides]
-        found = [(side, other) if axis == 0 else (other, side) for side, other in runs]
-    return found
+        parts = [(side, other) if axis == 0 else (other, side) for side, other in runs]
+    return parts
 
 
 def at(store: Store, first: Fraction, second: Fraction) -> Row | None:

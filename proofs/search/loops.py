@@ -61,10 +61,10 @@ def _intervals(system: System) -> Iterator[tuple[float, float]]:
     for k in range(_STARTS):
         phase: float | None = math.tau * (k + 0.5) / _STARTS
         for _ in range(_SETTLED):
-            found = next_impact(system, phase, reach(system.eta)) if phase is not None else None
-            if found is not None:
-                late.append(found[1])
-            phase = None if found is None else found[1]
+            impact = next_impact(system, phase, reach(system.eta)) if phase is not None else None
+            if impact is not None:
+                late.append(impact[1])
+            phase = None if impact is None else impact[1]
     late = late[-1 :: -max(1, len(late) // (2 * _STARTS))]
     for width in _WIDTHS:
         for phase in late:
@@ -74,18 +74,18 @@ def _intervals(system: System) -> Iterator[tuple[float, float]]:
 
 def _returns(ends: tuple[float, float], pieces: Sequence[Piece]) -> list[_Node]:
     """Return intervals in J that come back onto it, the soonest first."""
-    found: list[_Node] = []
+    returning: list[_Node] = []
     waiting = deque([_Node(ends)])
     for _ in range(_NODES):
-        if not waiting or len(found) == _MOST_LOOPS:
+        if not waiting or len(returning) == _MOST_LOOPS:
             break
         target = waiting.popleft()
         for node in _before(target, pieces):
             if ends[0] < node.ends[0] and node.ends[1] < ends[1]:
-                found.append(node)
+                returning.append(node)
             elif node.ends[1] < ends[0] or ends[1] < node.ends[0]:
                 waiting.append(node)
-    return found[:_MOST_LOOPS]
+    return returning[:_MOST_LOOPS]
 
 
 def _before(target: _Node, pieces: Sequence[Piece]) -> Iterator[_Node]:
@@ -139,10 +139,10 @@ def _preimage(system: System, piece: Piece, image: float) -> float | None:
     rises = piece.images[k + 1] > piece.images[k]
     for _ in range(_HALVINGS):
         middle = (low + high) / 2
-        found = next_impact(system, middle, reach(system.eta))
-        if found is None:
+        impact = next_impact(system, middle, reach(system.eta))
+        if impact is None:
             return None
-        low, high = (middle, high) if (middle + found[0] < image) == rises else (low, middle)
+        low, high = (middle, high) if (middle + impact[0] < image) == rises else (low, middle)
     return low
 
 

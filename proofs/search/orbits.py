@@ -37,11 +37,11 @@ class Seen(NamedTuple):
 
 def look(system: System, phase: float, farthest: float) -> Seen:
     """Return what becomes of one launch, flights being followed so far."""
-    found = next_impact(system, phase, farthest)
-    if found is not None and abs(found[0] - math.tau * system.eta.denominator) < _TOUCH:
+    impact = next_impact(system, phase, farthest)
+    if impact is not None and abs(impact[0] - math.tau * system.eta.denominator) < _TOUCH:
         return Seen(phase, TOUCHES)
-    if found is not None:
-        return Seen(phase, RISES if found[2] > 0 else FALLS, phase + found[0], found[2])
+    if impact is not None:
+        return Seen(phase, RISES if impact[2] > 0 else FALLS, phase + impact[0], impact[2])
     start = launch(system.side, float(system.eta), float(system.nu), phase)
     return Seen(phase, STICKS if launch_acceleration(start) <= 0 else FLIES)
 

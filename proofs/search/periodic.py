@@ -62,13 +62,13 @@ def _full_shift(of: Parameters, left: Range, right: Range) -> ImpactMap:
     if not (shift.full and all(arc.is_interval for arc in arcs)):
         raise Undecided("; ".join(arc.brief for arc in arcs))
     turns, parts = list[int](), list[FirstImpact]()
-    for domain, (_, found) in zip((left, right), steps, strict=True):
+    for domain, (_, slope_range) in zip((left, right), steps, strict=True):
         around = Fraction(float_down(domain[0])), Fraction(float_up(domain[1]))
         impacts = prover.impacts(around)
         time = prover.impact_map.impact(enclosed((domain[:1] * 2,), prover.bits)).range
-        whole = (Interval(*time) + domain[0] - Interval(*found.images[0])) / turn(53)
-        count = round(whole.mid)
-        if not (whole.contains(count) and whole.wid < 1):
+        counted = (Interval(*time) + domain[0] - Interval(*slope_range.images[0])) / turn(53)
+        count = round(counted.mid)
+        if not (counted.contains(count) and counted.wid < 1):
             raise ArithmeticError("an impact is at another phase than it was proved to be")
         turns.append(count)
         parts += [part for _, part in impacts]

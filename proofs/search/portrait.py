@@ -70,39 +70,39 @@ def stretches(
         check()
         points.append(look(system, math.tau * (k + 0.5) / grid, farthest))
     runs = [[points[0]]]
-    for one, two in pairwise(points):
+    for left_point, right_point in pairwise(points):
         check()
-        for left, right in _breaks(system, one, two, farthest, budget):
+        for left, right in _breaks(system, left_point, right_point, farthest, budget):
             if left is not runs[-1][-1]:
                 runs[-1].append(left)
             runs.append([right])
-        if two is not runs[-1][-1]:
-            runs[-1].append(two)
+        if right_point is not runs[-1][-1]:
+            runs[-1].append(right_point)
     return [Stretch(tuple(run)) for run in runs]
 
 
 def _breaks(
-    system: System, one: Seen, two: Seen, farthest: float, budget: list[int]
+    system: System, left: Seen, right: Seen, farthest: float, budget: list[int]
 ) -> Iterator[tuple[Seen, Seen]]:
     """Yield the neighbouring phases, between two, at which a stretch ends and another begins."""
-    if continues(one, two):
+    if continues(left, right):
         return
-    width = two.phase - one.phase
+    width = right.phase - left.phase
     if width < _NARROWEST or budget[0] <= 0:
         budget[0] -= 1
-        yield one, two
+        yield left, right
         return
-    middle = look(system, (one.phase + two.phase) / 2, farthest)
-    yield from _breaks(system, one, middle, farthest, budget)
-    yield from _breaks(system, middle, two, farthest, budget)
+    middle = look(system, (left.phase + right.phase) / 2, farthest)
+    yield from _breaks(system, left, middle, farthest, budget)
+    yield from _breaks(system, middle, right, farthest, budget)
 
 
-def continues(one: Seen, two: Seen) -> bool:
+def continues(left: Seen, right: Seen) -> bool:
     """Whether the second of two neighbours is on the stretch of the first, by the slopes."""
-    if one.kind != two.kind:
+    if left.kind != right.kind:
         return False
-    expected = (one.slope + two.slope) / 2 * (two.phase - one.phase)
-    return abs(two.image - one.image - expected) < 0.3 * abs(expected) + 1e-3
+    expected = (left.slope + right.slope) / 2 * (right.phase - left.phase)
+    return abs(right.image - left.image - expected) < 0.3 * abs(expected) + 1e-3
 
 
 # -- where orbits go -------------------------------------------------------------------------------

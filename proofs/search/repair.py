@@ -54,8 +54,8 @@ def nearest_sets(of: Parameters) -> Iterator[Parameters]:
 
     @cache
     def image(end: Fraction) -> tuple[float, float] | None:
-        found = next_impact(system, float(end))
-        return None if found is None else found[1:]
+        impact = next_impact(system, float(end))
+        return None if impact is None else impact[1:]
 
     for moved in moved_ends((*of.left, *of.right)):
         if _covers(moved, signs, image):
@@ -70,11 +70,11 @@ def _covers(
 ) -> bool:
     """Whether, in floating point, f expands with these signs at the ends, and covers I."""
     for index, (end, sign) in enumerate(zip(ends, signs, strict=True)):
-        found = image(end)
-        if found is None or sign * found[1] <= 1:
+        sent = image(end)
+        if sent is None or sign * sent[1] <= 1:
             return False
         is_lower = (index % 2 == 0) == (sign > 0)
-        if (found[0] > ends[0]) if is_lower else (found[0] < ends[3]):
+        if (sent[0] > ends[0]) if is_lower else (sent[0] < ends[3]):
             return False
     return True
 

@@ -67,7 +67,7 @@ class _Run:
 
     def prove_slopes(self, *sets: Parameters) -> bool:
         """Enclose f' on I0 and on I1, each the hull of those of the sets given."""
-        for domains in ([one.left for one in sets], [one.right for one in sets]):
+        for domains in ([each.left for each in sets], [each.right for each in sets]):
             points = sorted({end for domain in domains for end in domain})
             if not any(set(points) <= set(known.points) for _, known in self.slopes):
                 proved = self.attempt("slopes", partial(self.prover.slopes, points))
@@ -78,29 +78,29 @@ class _Run:
 
     def prove_gap(self, *sets: Parameters) -> bool:
         """Prove that the gap, the hull of those of the sets given, avoids the hull of the Is."""
-        phases = (min(one.gap[0] for one in sets), max(one.gap[1] for one in sets))
-        target = (min(one.interval[0] for one in sets), max(one.interval[1] for one in sets))
+        phases = (min(each.gap[0] for each in sets), max(each.gap[1] for each in sets))
+        target = (min(each.interval[0] for each in sets), max(each.interval[1] for each in sets))
         proved = self.attempt("gap", partial(self.prover.avoids, phases, target))
         self.gaps += [] if proved is None else [proved]
         return proved is not None
 
     def evidence(self, claim: str) -> Proof:
         """Return the steps that a claim rests on: enough to decide it, if they are."""
-        known: Proof = []
+        proof: Proof = []
         if claim in _NEEDS_SLOPES:
-            known += [(name, found) for name, found in self.slopes if self._is_about(found)]
-        if claim in _NEEDS_GAP and self._verdict(claim, known) is Verdict.UNDECIDED:
-            known += self.gaps[:1]
-        if self._verdict(claim, known) is Verdict.UNDECIDED:
+            proof += [(name, found) for name, found in self.slopes if self._is_about(found)]
+        if claim in _NEEDS_GAP and self._verdict(claim, proof) is Verdict.UNDECIDED:
+            proof += self.gaps[:1]
+        if self._verdict(claim, proof) is Verdict.UNDECIDED:
             found = self.witness(claim)
-            known = known if found is None else [found]
-        return known
+            proof = proof if found is None else [found]
+        return proof
 
-    def _is_about(self, found: SlopeRange) -> bool:
-        return any(found.over(domain) is not None for domain in (self.of.left, self.of.right))
+    def _is_about(self, slopes: SlopeRange) -> bool:
+        return any(slopes.over(domain) is not None for domain in (self.of.left, self.of.right))
 
-    def _verdict(self, claim: str, known: Sequence[tuple[str, Conclusion]]) -> Verdict:
-        return _DECIDE[claim](self.of, [conclusion for _, conclusion in known]).verdict
+    def _verdict(self, claim: str, proof: Sequence[tuple[str, Conclusion]]) -> Verdict:
+        return _DECIDE[claim](self.of, [conclusion for _, conclusion in proof]).verdict
 
     def witness(self, claim: str) -> tuple[str, Differential] | None:
         """Look for one phase that refutes a claim, by candidates, and prove it."""
@@ -140,12 +140,12 @@ class _Run:
 
     def _proved(self, sets: Parameters) -> tuple[str, StayingSet] | None:
         """Return a horseshoe on these sets by the steps that there are."""
-        known = [
+        covering = [
             next((step for step in self.slopes if step[1].over(domain)), None)
             for domain in (sets.left, sets.right)
         ]
-        slopes = [each for each in known if each is not None]
-        for gap in self.gaps if len(slopes) == len(known) else ():
+        slopes = [each for each in covering if each is not None]
+        for gap in self.gaps if len(slopes) == len(covering) else ():
             with suppress(Unproved), self.prover.undone():
                 return self.prover.horseshoe(slopes, gap, sets)
         return None

@@ -69,11 +69,11 @@ def _halves(prover: ReboundProver, box: Place, sets: Sets) -> list[Place]:
     for side in ("eta", "nu", "epsilon"):
         low, high = getattr(box, side)
         if low < high:
-            one, two = (
+            first, last = (
                 image_phases(replace(middle, **{side: (end, end)}), prover.velocities)
                 for end in (low, high)
             )
-            pairs = [(one(end), two(end)) for end in ends]
+            pairs = [(first(end), last(end)) for end in ends]
             move = sum(abs(a[0] - b[0]) if a and b else math.inf for a, b in pairs)
             moves.append((move, side))
     if not moves:

@@ -43,8 +43,8 @@ def stable_cycles(
     at = Place.restituting(eta, nu, epsilon)
     seen: list[Floats] = []
     for states in _candidates(System(eta, nu), float(epsilon), tries):
-        known = any(math.dist(states[0], other) < _HALF for other in seen)
-        if known or period not in (None, len(states)):
+        again = any(math.dist(states[0], other) < _HALF for other in seen)
+        if again or period not in (None, len(states)):
             continue
         seen += states
         for rounds in range(1, _MOST_ROUNDS + 1):

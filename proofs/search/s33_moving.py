@@ -63,13 +63,13 @@ class Moving:
 def first_guess(system: System, sets: tuple[Pair, Pair]) -> Moving | None:
     """Return two sets of phases with the velocities and flights that plastic impacts have there."""
     forward = system.side * abs(float(system.nu)) / float(system.eta)  # meets the table anywhere
-    found = [landing(system, 0.0, sum(each) / 2, forward) for each in sets]
-    known = [each for each in found if each is not None]
-    if len(known) < len(found):
+    landings = [landing(system, 0.0, sum(each) / 2, forward) for each in sets]
+    certain = [each for each in landings if each is not None]
+    if len(certain) < len(landings):
         return None
-    gammas = [each.velocity for each in known]
+    gammas = [each.velocity for each in certain]
     common = min(gammas) - 0.03, max(gammas) + 0.03
-    times, falls = zip(*((x.time, x.derivative[0][0] < 0) for x in known), strict=True)
+    times, falls = zip(*((x.time, x.derivative[0][0] < 0) for x in certain), strict=True)
     return Moving((0.0, 0.0), sets, (common, common), times, falls)
 
 
@@ -100,12 +100,12 @@ def settled(system: System, guess: Moving, margin: float) -> Moving | None:
         if any(low >= high for low, high in now.phases):
             return None
         if sweep % 4 == 3 or max(moved) < close:
-            found = _heights(system, now)
-            if found is None:
+            raised = _heights(system, now)
+            if raised is None:
                 return None
-            pairs = zip(now.velocities, found.velocities, strict=True)
+            pairs = zip(now.velocities, raised.velocities, strict=True)
             grown = max(max(abs(a - b) for a, b in zip(*pair, strict=True)) for pair in pairs)
-            now = found
+            now = raised
             if max(grown, *moved) < close:
                 return now
     return None
@@ -123,13 +123,13 @@ def _edges(system: System, now: Moving, index: int, margin: float) -> Pair | Non
             images = [
                 landing(system, epsilon, moved, gamma) for epsilon, gamma in now.corners(index)
             ]
-            known = [x for x in images if x and abs(x.time - now.flights[index]) < _SAME_FLIGHT]
-            if len(known) == len(images):
+            nearby = [x for x in images if x and abs(x.time - now.flights[index]) < _SAME_FLIGHT]
+            if len(nearby) == len(images):
                 break
             moved = moved * 0.75 + sum(now.phases[index]) / 2 * 0.25
         else:
             return None
-        image = extreme(known, key=lambda each: _near(each, target))
+        image = extreme(nearby, key=lambda each: _near(each, target))
         step = (target - _near(image, target)) / image.derivative[0][0]
         edges.append(moved + min(_STEP, max(-_STEP, step)))
     return edges[0], edges[1]
@@ -152,8 +152,8 @@ def _heights(system: System, now: Moving) -> Moving | None:
             if len(rows[-1]) < len(images):
                 return None
         ratios += [x.derivative[1][0] / x.derivative[0][0] for row in rows for x in row]
-        for one, two in pairwise(rows):
-            part = [*one, *two]
+        for left, right in pairwise(rows):
+            part = [*left, *right]
             phases = [_near(x, now.phases[0][0]) for x in part]
             reach = min(phases), max(phases)
             for k in now.following(index):

@@ -52,10 +52,10 @@ def overshoot(ends: tuple[Fraction, ...], images: Images) -> float:
     """Return about the least margin by which the four edges are mapped beyond the rectangles."""
     margins = []
     for index, end in enumerate(ends):
-        found = images(end)
-        if found is None:
+        reach = images(end)
+        if reach is None:
             return -math.inf
-        margins.append(ends[0] - found[1] if index % 2 == 0 else found[0] - ends[3])
+        margins.append(ends[0] - reach[1] if index % 2 == 0 else reach[0] - ends[3])
     return float(min(margins))
 
 
@@ -65,11 +65,11 @@ def is_short(ends: tuple[Fraction, ...], images: Images) -> bool:
     And that of each rectangle the right edge is mapped to the right of the left one: where it is
     not, some of its impacts graze.
     """
-    found = [images(end) for end in ends]
-    known = [each for each in found if each is not None]
-    if len(known) < len(ends) or any(known[k][1] >= known[k + 1][0] for k in (0, 2)):
+    reaches = [images(end) for end in ends]
+    certain = [each for each in reaches if each is not None]
+    if len(certain) < len(ends) or any(certain[k][1] >= certain[k + 1][0] for k in (0, 2)):
         return False
-    return any(ends[0] < low and high < ends[3] for low, high in known)
+    return any(ends[0] < low and high < ends[3] for low, high in certain)
 
 
 def stays(at: Place, velocities: Range, sets: Sets) -> bool:
@@ -120,9 +120,9 @@ def narrowed(of: Parameters, images: Images) -> Range | None:
     low, high = of.right
     for _ in range(_HALVINGS):
         middle = (low + high) / 2
-        found = images(middle)
-        if found is None:
+        reach = images(middle)
+        if reach is None:
             return None
-        low, high = (low, middle) if found[0] > of.left[1] else (middle, high)
+        low, high = (low, middle) if reach[0] > of.left[1] else (middle, high)
     top = min(Fraction(beyond[0]), of.right[1])
     return (high, top) if high < top else None

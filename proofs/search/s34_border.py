@@ -49,11 +49,11 @@ def border(prover: Prover, motion: tuple[str, SuperstableMotion]) -> Proof:
 
     From those on at which it is known to rest; epsilons are multiples of 1 / _UNITS.
     """
-    name, found = motion
-    separation, arc = prover.steps[name]["witness"]["separation"], found.arc
+    name, resting = motion
+    separation, arc = prover.steps[name]["witness"]["separation"], resting.arc
     box = around(arc, 2 * max(high - low for low, high in (arc.arrival, arc.speed)))
     rests, passes = None, None
-    low, high = int(found.largest * _UNITS), _UNITS
+    low, high = int(resting.largest * _UNITS), _UNITS
     while high - low > 1:
         middle = (low + high) // 2
         try:

@@ -91,11 +91,11 @@ def expanding(branch: Sequence[Seen]) -> Iterator[Piece]:
 Symbol = tuple[Piece, int]  # a piece, and the turns of the table that an image is less
 
 
-def symbols(found: Sequence[Piece]) -> list[Symbol]:
+def symbols(seen: Sequence[Piece]) -> list[Symbol]:
     """Return the pieces, once for each turn that their images reach."""
     return [
         (piece, turn)
-        for piece in found
+        for piece in seen
         for turn in range(int(piece.arc[0] // math.tau), int(piece.arc[1] // math.tau) + 1)
     ]
 
@@ -108,27 +108,27 @@ def cells(chosen: Sequence[Symbol], spare: float) -> list[tuple[float, float]] |
     low = max(0.0, *(piece.arc[0] - math.tau * turn for piece, turn in chosen))
     high = min(float(TURN), *(piece.arc[1] - math.tau * turn for piece, turn in chosen))
     for _ in range(60):
-        found = []
+        sets = []
         for piece, turn in chosen:
             ends = piece.preimage(math.tau * turn + low), piece.preimage(math.tau * turn + high)
             if ends[0] is None or ends[1] is None or low >= high:
                 return None
-            found.append((min(ends[0], ends[1]), max(ends[0], ends[1])))
-        found.sort()
-        first, last = found[0][0] - spare, max(end for _, end in found) + spare
+            sets.append((min(ends[0], ends[1]), max(ends[0], ends[1])))
+        sets.sort()
+        first, last = sets[0][0] - spare, max(end for _, end in sets) + spare
         if first < low or last > high:
             return None
         if first - low + high - last < spare / 100:
             break
         low, high = first, last
-    apart = all(one[1] + spare / 10 < two[0] for one, two in pairwise(found))
-    return found if apart else None
+    apart = all(one[1] + spare / 10 < two[0] for one, two in pairwise(sets))
+    return sets if apart else None
 
 
 def full_shifts(seen: Sequence[Piece]) -> Iterator[list[Range]]:
     """Yield sets, in short decimals, on which f seems to be a full shift, most symbols first."""
-    found = symbols(seen)
-    for family in sorted(families(found, _MOST_SYMBOLS), key=len, reverse=True):
+    letters = symbols(seen)
+    for family in sorted(families(letters, _MOST_SYMBOLS), key=len, reverse=True):
         yield from islice(with_spare(family), 1)
 
 
@@ -155,10 +155,12 @@ def own_sets(of: Parameters) -> Parameters | None:
             _statement(of, system, sets)
             for sets in islice(pairs(pieces(system, grid)), _MOST_PAIRS)
         )
-        found = [each for each in near if each is not None]
-        if found:
-            one = (each for each in found if _in_one_piece(system, (each.left, each.right)))
-            return next(one, found[0])
+        statements = [each for each in near if each is not None]
+        if statements:
+            certain = (
+                each for each in statements if _in_one_piece(system, (each.left, each.right))
+            )
+            return next(certain, statements[0])
     return None
 
 
@@ -170,11 +172,11 @@ def _statement(of: Parameters, system: System, sets: tuple[Range, Range]) -> Par
     slopes = list[float]()
     for domain in sets:
         seen = [next_impact(system, phase) for phase in _evenly(domain, _SAMPLES)]
-        known = [each for each in seen if each is not None]
-        signs.append(1 if known and known[0][2] > 0 else -1)
-        ends = [known[k][1] for k in (0, -1)][:: signs[-1]] if known else [high, low]
-        steep = [each[2] * signs[-1] for each in known]
-        if len(known) < len(seen) or min(steep) <= 1 or ends[0] > low or ends[1] < high:
+        impacts = [each for each in seen if each is not None]
+        signs.append(1 if impacts and impacts[0][2] > 0 else -1)
+        ends = [impacts[k][1] for k in (0, -1)][:: signs[-1]] if impacts else [high, low]
+        steep = [each[2] * signs[-1] for each in impacts]
+        if len(impacts) < len(seen) or min(steep) <= 1 or ends[0] > low or ends[1] < high:
             return None
         slopes += steep
     between = (next_impact(system, phase) for phase in _evenly((sets[0][1], sets[1][0]), _BETWEEN))
@@ -207,17 +209,17 @@ def _in_one_piece(system: System, sets: Sequence[Range]) -> bool:
         return False
 
 
-def families(found: Sequence[Symbol], most: int) -> list[list[Symbol]]:
+def families(letters: Sequence[Symbol], most: int) -> list[list[Symbol]]:
     """Return symbols that seem to make a full shift, up to so many together, each family once."""
     least = _SPARES[-1]
     grown: list[list[Symbol]] = []
-    for pair in combinations(found, 2):
+    for pair in combinations(letters, 2):
         if any(set(map(id, pair)) <= set(map(id, family)) for family in grown):
             continue
         family = list(pair)
         if not cells(family, least):
             continue
-        for symbol in found:
+        for symbol in letters:
             if len(family) < most and symbol not in family:
                 more = [*family, symbol]
                 family = more if cells(more, least) else family
@@ -236,7 +238,7 @@ def with_spare(family: Sequence[Symbol]) -> Iterator[list[Range]]:
 def rounded_out(sets: Sequence[tuple[float, float]], spare: float) -> list[Range]:
     """Round sets outward to decimals, of the fewest places that leave room around them."""
     narrowest = min(high - low for low, high in sets)
-    gap = min(two[0] - one[1] for one, two in pairwise(sets))
+    gap = min(right[0] - left[1] for left, right in pairwise(sets))
     room = min(narrowest / 20, gap / 20, spare / 5)
     unit = Fraction(1, 10 ** max(2, math.ceil(-math.log10(room))))
     return [(Fraction(low) // unit * unit, -(Fraction(-high) // unit) * unit) for low, high in sets]

@@ -497,7 +497,7 @@ def test_what_comes_next_is_asked(capsys):
     [
         ("orbits:0", "'orbits:0' is no question: ask as in orbits:2"),
         ("folds:a=1", "ask as in folds:P=A:B,Q=C:D"),
-        ("everything", "image:X=A,Y=B:C, impact"),
+        ("everything", "horseshoe, image:X=A,Y=B:C, "),
         ("impact:x=1", "impact is asked of systems, not of maps"),
     ],
 )

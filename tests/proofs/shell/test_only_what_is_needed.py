@@ -17,8 +17,8 @@ from tests.calls import calls
 WATCHED = gap, slope, return_map_derivative, march, cover, simplest, Mesh.leaning, Tape.evaluate
 STEPS = rules.find_rule
 FLIGHTS = {gap: 1500, march: 5, cover: 4, slope: 25}
-SLOPES = {gap: 650, march: 2, cover: 4, slope: 30}
-FLOWN = {gap: 2500, return_map_derivative: 8, Tape.evaluate: 40}
+SLOPES = {gap: 1200, slope: 40}
+FLOWN = {gap: 2500, return_map_derivative: 8}
 NEEDED = [  # group, claims, the most calls in a proof, steps of the certificate
     ("horseshoe", "H16", {}, 0),
     ("foundations", "A2", {}, 0),
@@ -26,8 +26,8 @@ NEEDED = [  # group, claims, the most calls in a proof, steps of the certificate
     ("sets", "H12 H14", {}, 2),
     ("foundations", "M4", {Tape.evaluate: 5}, 5),
     ("horseshoe", "H4", FLIGHTS, 4),
-    ("horseshoe", "H1", SLOPES, 4),
-    ("horseshoe", "H1 H3 H6 H11 H16", SLOPES, 6),  # steps that several need are made once
+    ("horseshoe", "H1", SLOPES, 2),
+    ("horseshoe", "H1 H3 H6 H11 H16", SLOPES, 4),  # steps that several need are made once
     ("circle", "G1", {gap: 100, march: 1}, 1),  # an orbit of period 2: no cells of the circle
     ("horseshoe", "N2", FLOWN, 2),  # no plastic map
 ]

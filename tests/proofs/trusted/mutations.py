@@ -33,7 +33,7 @@ HARMLESS = {  # fields; what may be done to them, and why
         "another bracket that holds the impact; the numbers are computed from it again",
     ),
     "phases": ("nudged looser", "the same times prove the first impact of a few phases more"),
-    "root": ("nudged looser tighter", "another bracket of the root"),
+    "root": ("nudged looser tighter widened", "another bracket of the root"),
     **dict.fromkeys(("bounds", "states", "weights"), (ANY, "others, proved anew")),
     "points": ("nudged dropped", "other points of the same pieces"),
     "slopes": ("added", "a step may be named twice"),
