@@ -19,17 +19,17 @@ from proofs.trusted.rules import RULES
 ROOT = Path(__file__).parents[1]
 GENERATED = ["docs/api.md", "docs/systems.md"]
 BUDGETS = {
-    "proofs": 54_950,
-    "proofs/trusted": 22_965,
+    "proofs": 55_300,
+    "proofs/trusted": 22_980,
     "proofs/search, proofs/motion": 8_500,
     "proofs/shell": 1_760,
-    "proofs/benchmark": 1_880,
+    "proofs/benchmark": 1_980,
     "proofs/stress": 1_300,
-    "tests": 44_260,
+    "tests": 44_400,
     "words of the docs": 12_000,  # of those that are written by hand, the README with them
     "rules outside the kernel": 24,
     "loose modules": 9,  # of the package proofs
-    "tracked files": 910,
+    "tracked files": 916,
     "headline": 7_310,  # lines of the files that run to check reports/horseshoe.json
     "way of H2": 8_580,  # lines of the files that run to prove H2 and to check it
     "way of H2, files": 53,
