@@ -32,7 +32,7 @@ _MOST_BOXES = 128  # of a tree
 _MOST_PAIRS, _MOST_PROOFS, _LONGEST_WORD = 40, 3, 4
 _WORK = 8_000_000  # of all attempts at one iterate
 _CUBE = (Fraction(-1), Fraction(1))
-_AMPLE = 0.3  # by so much sets cross that they are tried before others are looked at
+_AMPLE = 0.3  # the first sets that cross by so much are tried before others are looked at
 
 
 def add_h_set(file: Derivation, centre: tuple[Fraction, ...], matrix: Rows) -> str:
@@ -165,10 +165,11 @@ class Candidates(NamedTuple):
         pairs = sorted(combinations(self.saddles, 2), key=lambda pair: distance(sampled, *pair))
         for length in range(2, _LONGEST_WORD + 1):
             seen, left = [], max(1, int(_MOST_PROOFS * self.share))
+            is_first = True
             for pair in pairs[: int(_MOST_PAIRS * self.share)]:
                 for margin, candidates in _crossing(sampled, pair, length):
-                    if margin > _AMPLE and left:
-                        left -= 1
+                    if margin > _AMPLE and is_first:
+                        is_first, left = False, left - 1
                         yield candidates
                     else:
                         seen.append((margin, candidates))
