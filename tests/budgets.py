@@ -26,7 +26,7 @@ BUDGETS = {
     "proofs/benchmark": 1_975,
     "proofs/stress": 1_300,
     "tests": 44_620,
-    "words of the docs": 12_240,  # of those that are written by hand, the README with them
+    "words of the docs": 12_000,  # of those that are written by hand, the README with them
     "rules outside the kernel": 24,
     "loose modules": 9,  # of the package proofs
     "tracked files": 920,
