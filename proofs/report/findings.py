@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -125,10 +125,10 @@ class Statement:
 
 @dataclass(frozen=True)
 class Findings:
-    """All claims of a ledger in the paper's order, and the statements that decide them."""
+    """All claims of a ledger in the paper's order, and by their texts what decides them."""
 
     claims: tuple[Finding, ...]
-    statements: Mapping[Conclusion, Statement]
+    statements: Mapping[str, Statement]
 
     def sections(self) -> Iterator[tuple[str, str, list[Finding]]]:
         """Yield the sections with their titles and claims."""
@@ -145,6 +145,10 @@ class Findings:
                 parts: list[Statement | str] = [before, other, after.lstrip()]
                 return [part for part in parts if part]
         return [statement.text]
+
+    def stated(self, conclusions: Iterable[Conclusion]) -> list[Statement]:
+        """Return where conclusions stand, each text once."""
+        return list(dict.fromkeys(self.statements[told([each])] for each in conclusions))
 
     def at(self, claim: str) -> list[Statement]:
         """Return the statements that stand at a claim."""
@@ -232,24 +236,28 @@ def _steps(document: dict[str, Any], context: Context, named: set[str]) -> list[
     ]
 
 
-def _statements(claims: list[Finding]) -> dict[Conclusion, Statement]:
-    """Let every conclusion that decides something stand at the first claim that needs it."""
+def _statements(claims: list[Finding]) -> dict[str, Statement]:
+    """Let every conclusion that decides something stand at the first claim that needs it.
+
+    Conclusions with one text, of numbers that differ by less than is written, are one statement.
+    """
     lasting = {
-        each
+        told([each])
         for claim in claims
         for each in (
             *claim.decision.corrected,
             *(claim.decision.because if claim.verdict is Verdict.VERIFIED else ()),
         )
     }
-    statements: dict[Conclusion, Statement] = {}
+    statements: dict[str, Statement] = {}
     for claim in claims:
         number = 0
         for each in (*claim.decision.because, *claim.decision.corrected):
-            if each in statements:
+            text = told([each])
+            if text in statements:
                 continue
             number += 1
             kind = "Witness" if claim.verdict is Verdict.REFUTED else "Condition"
-            kind = "Theorem" if each in lasting else kind
-            statements[each] = Statement(f"{claim.id}.{number}", kind, each, claim.id)
+            kind = "Theorem" if text in lasting else kind
+            statements[text] = Statement(f"{claim.id}.{number}", kind, each, claim.id)
     return statements

@@ -209,8 +209,7 @@ def _decisions(findings: Findings, places: Places) -> list[str]:
             spots[each.label] = x + 7 + 11 * place, y + _BOX + 8
     for claim in findings.claims:
         decision = claim.decision
-        for conclusion in dict.fromkeys((*decision.because, *decision.corrected)):
-            each = findings.statements[conclusion]
+        for each in findings.stated((*decision.because, *decision.corrected)):
             if each.claim != claim.id and _together(each.claim, claim.id):
                 (x, y), (c, d) = spots[each.label], places[claim.id]
                 parts.append(f'<path class="edge decides" d="M{x} {y}L{c + 6} {d + _BOX}"/>')

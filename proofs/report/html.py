@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -34,7 +34,7 @@ from proofs.report.specification import rule_theorem
 from proofs.report.typeset import html
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import floor_text
-from proofs.trusted.verdicts import Verdict
+from proofs.trusted.verdicts import Verdict, told
 
 POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; script-src 'unsafe-inline'"
 _POLICY_OF_CHECKER = f"{POLICY} 'unsafe-eval' blob:; worker-src blob:"
@@ -131,7 +131,7 @@ class View:
         """The theorem beside the paper's main one: what it corrects, if that is decided."""
         for claim in self.findings.claims:
             if claim.row.where.endswith("Theorem 2") and claim.decision.corrected:
-                return self.findings.statements[claim.decision.corrected[0]]
+                return self.findings.stated(claim.decision.corrected)[0]
         return None
 
     @cached_property
@@ -182,10 +182,6 @@ class View:
         number = len(claim.steps)
         return f"{number} step{'s' if number > 1 else ''}"
 
-    def statements(self, conclusions: Iterable[Conclusion]) -> list[Statement]:
-        """Return where conclusions stand, each once."""
-        return [self.findings.statements[each] for each in dict.fromkeys(conclusions)]
-
     def blocks(self, statement: Statement, printed: str = "") -> list[Block]:
         """Return a statement sentence by sentence, values marked that are printed otherwise."""
         blocks = []
@@ -227,7 +223,7 @@ class View:
 
     def step_text(self, step: Step) -> Markup:
         """Return what a step concludes: a link to where that stands, a formula, or a sentence."""
-        stands = self.findings.statements.get(step.conclusion)
+        stands = self.findings.statements.get(told([step.conclusion]))
         if stands is not None:
             return self.link(stands) + ": " + Markup(html(stands.conclusion.brief))
         return formula(step.conclusion) or Markup(html(step.conclusion.sentence))

@@ -10,7 +10,6 @@ from proofs.report.graph import MARKS, falling
 from proofs.report.names import DEFINITIONS, PAPER_TITLE, summary, tally, verdict_name
 from proofs.report.pictures import Picture
 from proofs.report.typeset import markdown
-from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.verdicts import Verdict
 
 
@@ -75,7 +74,7 @@ def _claim(findings: Findings, claim: Finding) -> list[str]:
     if decision.missing or not decision.because:
         parts.append(f"**Because:** {markdown(decision.why)}.")
     here = {each.label for each in findings.at(claim.id)}
-    for each in _statements(findings, (*decision.because, *decision.corrected)):
+    for each in findings.stated((*decision.because, *decision.corrected)):
         label = f"{each.kind} {each.label}"
         if each.label in here:
             parts.append(f'<a id="{each.label}"></a>**{label}.** {statement_text(findings, each)}')
@@ -97,10 +96,6 @@ def statement_text(findings: Findings, statement: Statement) -> str:
         else f"[{part.kind} {part.label}](#{part.label}); moreover:"
         for part in findings.parts(statement)
     )
-
-
-def _statements(findings: Findings, conclusions: Iterable[Conclusion]) -> list[Statement]:
-    return [findings.statements[each] for each in dict.fromkeys(conclusions)]
 
 
 def _falls(findings: Findings) -> list[str]:

@@ -90,7 +90,7 @@ def test_where_f_decreases_theorems_and_dimension_are_those_of_the_oracle(fallin
     told = premises(sets.certificate).known.values()
     proved = [*told, *(conclusion for _, conclusion in found.proofs["H2"])]
     kinds = {type(each).__name__ for each in proved}
-    assert {"StayingSet", "Repeller", "Impact"} <= kinds
+    assert {"StayingSet", "Repeller", "Differential"} <= kinds
     assert [x for each in proved for x in oracle(each, random.Random(1), falling)] == []
 
 

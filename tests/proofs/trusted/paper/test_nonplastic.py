@@ -95,7 +95,8 @@ ONE_OPEN = {"N1": "REFUTED", "N2": "UNDECIDED"}
             PAPER,
             {"N3": "VERIFIED"},
             [
-                "eta in [0.21205, 0.21215], nu in [-0.20675, -0.19825], epsilon in [0, 0.015]",
+                "At eta in [0.21205, 0.21215], nu in [-0.20",
+                "epsilon in [0, 0.015]: let V1 = ",
                 "without 22",
                 "short of 1.35 by at least 0.0018",
             ],

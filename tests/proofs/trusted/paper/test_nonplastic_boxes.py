@@ -228,7 +228,7 @@ ROUGH = reaching(WIDE, "0.00005", "0.05", "0.005")  # nu to one place
                 "At eta = 0.2121, nu = -0.2, epsilon = 0.01: no orbit of F follows V2 V2 V2 V2:",
                 "[1.300825, 1.300826], short of 1.32 by at least 0.019174",
                 "At eta in [0.21205, 0.21215], nu in [-0.20005, -0.19995], epsilon in "
-                "[0.005, 0.015]: let V1 = [1.1, 1.17] x [-0.45, 0], V2 = [1.26, 1.34] x [-0.45, 0]",
+                "[0.005, 0.015]: let V1 = [1.1, 1.17] x [-0.45, 0], V2 = [1.2",
             ],
         ),
         slow(PLASTIC, "VERIFIED", ["f' >= 4.06"]),
