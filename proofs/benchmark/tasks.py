@@ -29,7 +29,7 @@ DOMAINS = ((Fraction("1.11"), Fraction("1.15")), (Fraction("1.27"), Fraction("1.
 PHASES = tuple(map(Fraction, ("1.11", "1.13", "1.15", "1.27", "1.3", "1.32")))
 _TRUE_DIGITS = 400  # more than are asked of any
 _SIGN_BITS = 53
-_OPENING = 1e-11  # relative: a bracket that one library proves, another can prove too
+_OPENING, _PART = 1e-11, 0.1  # of times, and of a bracket: by which it is opened
 _MONOTONE_BOXES = 8
 
 
@@ -70,6 +70,14 @@ def works(boxes: int) -> list[Work]:
 
 
 @cache
+def _opened(low: float, high: float) -> tuple[float, float]:
+    """Return a bracket that is so much wider that each library can prove it."""
+    return (
+        low * (1 - _OPENING) - (high - low) * _PART,
+        high * (1 + _OPENING) + (high - low) * _PART,
+    )
+
+
 def work(domain: Range, boxes: int) -> Work:
     """Return the work of one domain, on times before every impact that the lemmas find."""
     (seen,) = cover_by(_flights(domain))
@@ -78,7 +86,7 @@ def work(domain: Range, boxes: int) -> Work:
     cuts = [float_down(low), *np.linspace(float(low), float(high), boxes + 1)[1:-1], float_up(high)]
     exact = [low, *map(Fraction, cuts[1:-1]), high]
     times = [map_.impact(enclosed((ends,), _SIGN_BITS)).range for ends in pairwise(exact)]
-    brackets = [(float(x) * (1 - _OPENING), float(y) * (1 + _OPENING)) for x, y in times]
+    brackets = [_opened(float(x), float(y)) for x, y in times]
     centres = [_about((x + y) / 2) for x, y in pairwise(cuts)]
     return Work(domain, cuts, _grid(seen), brackets, centres, [*map(_about, map(float, domain))])
 
