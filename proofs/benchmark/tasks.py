@@ -72,10 +72,8 @@ def works(boxes: int) -> list[Work]:
 @cache
 def _opened(low: float, high: float) -> tuple[float, float]:
     """Return a bracket that is so much wider that each library can prove it."""
-    return (
-        low * (1 - _OPENING) - (high - low) * _PART,
-        high * (1 + _OPENING) + (high - low) * _PART,
-    )
+    spare = _OPENING * high + _PART * (high - low)
+    return low - spare, high + spare
 
 
 def work(domain: Range, boxes: int) -> Work:
