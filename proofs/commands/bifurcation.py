@@ -41,14 +41,14 @@ from proofs.trusted.kernel.meter import Exhausted
 from proofs.trusted.verify import Rejected, check
 
 EPILOG = """\
-Formulas and names are those of `python -m proofs system`; e is none of the names. An argument
-@FILE is replaced by the lines of the file. Each candidate, a fixed point at which a multiplier is
-1 or -1 or two have the product 1, is classified: fold, transcritical, pitchfork, flip,
-neimark_sacker, resonance 1:k; what is degenerate, or none, is listed as dropped, with the reason.
-What decides is told where it stands,
-"critical" of the normal form, "speed" of the parameter, and what their signs mean; where it depends
-on other parameters, under which conditions; "root" and "root2" are parameters, too, where a closed
-form has roots of parameters. Other bifurcations than those in closed form may exist.
+Formulas and names are those of `python -m proofs system`; e is none of the names. An argument @FILE
+is replaced by the lines of the file. Each candidate, a fixed point at which a multiplier is 1 or -1
+or two have the product 1, is classified: fold, transcritical, pitchfork, flip, neimark_sacker,
+resonance 1:k; what is degenerate, or none, is listed as dropped, with the reason. What decides is
+told where it stands, "critical" of the normal form, "speed" of the parameter, and what their signs
+mean; where it depends on other parameters, under which conditions; "root" and "root2" are
+parameters, too, where a closed form has roots of parameters. Other bifurcations than those in
+closed form may exist.
 
 exit status: 0 done and checked, 1 a bifurcation that was asked for is not found, or what sympy
              finds is not derived by the checker, 2 bad input, 3 the checker disagrees (a bug)

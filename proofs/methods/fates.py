@@ -15,10 +15,7 @@ from proofs.trusted.numbers import Range
 _FOLLOWED, _FAR, _CLOSE = 30, 1e6, 1e-3  # points of an attractor
 _SETTLING, _BRIEFLY = 150, 50  # steps, and those of flows
 _NEUTRAL = 1e-6  # so much less than 1 are multipliers of an attracting orbit
-_ANGLES = (
-    ("2*pi", 2 * np.pi),
-    ("1", 1.0),
-)  # periods that a variable may have without one being given
+_ANGLES = (("2*pi", 2 * np.pi), ("1", 1.0))  # periods that a variable may have, not being given
 
 
 class Followed(NamedTuple):
