@@ -19,11 +19,11 @@ from proofs.trusted.rules import RULES
 ROOT = Path(__file__).parents[1]
 GENERATED = ["docs/api.md", "docs/systems.md"]
 BUDGETS = {
-    "proofs": 55_510,
+    "proofs": 55_520,
     "proofs/trusted": 22_970,
     "proofs/search, proofs/motion": 8_500,
     "proofs/shell": 1_760,
-    "proofs/benchmark": 2_000,
+    "proofs/benchmark": 2_005,
     "proofs/stress": 1_300,
     "tests": 44_620,
     "words of the docs": 12_000,  # of those that are written by hand, the README with them
