@@ -78,8 +78,10 @@ def edge_images(strips: Strips, states: Sequence[Differential]) -> list[EdgeImag
     """Return what is proved about single states at corners of rectangles."""
     images = []
     for each in states:
+        if each.place is None or each.place.epsilon is None:  # a plastic impact has no velocity
+            continue
         (phase, most), (velocity, highest) = each.box
-        if each.place is not None and (phase, velocity) == (most, highest):
+        if (phase, velocity) == (most, highest):
             with suppress(Unproved):
                 images.append(EdgeImage(each.place, strips, phase, velocity, each.values[0]))
     return images

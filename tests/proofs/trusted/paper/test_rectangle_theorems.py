@@ -14,7 +14,8 @@ from proofs.trusted.kernel.rates import Cone, Rates, rates
 from proofs.trusted.kernel.rectangles import Rectangle
 from proofs.trusted.kernel.words import BarredWord, never_ends
 from proofs.trusted.numbers import Phases
-from proofs.trusted.oscillator import Oscillator
+from proofs.trusted.oscillator import Oscillator, PlasticMap
+from proofs.trusted.paper import find
 from proofs.trusted.paper.s33_restitution.horseshoes import (
     HorseshoeFamily,
     RectangleHorseshoe,
@@ -26,6 +27,7 @@ from proofs.trusted.paper.s33_restitution.rectangles import ALL, BY_LAST, Blocks
 from proofs.trusted.paper.s33_restitution.words import GoldenMean, golden_mean
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.rules import find_rule
+from proofs.trusted.verdicts import Verdict
 
 HERE = Place(*((Fraction(1, 2),) * 2,) * 3)
 GAMMA = (Fraction(-1), Fraction(1))
@@ -247,6 +249,17 @@ PART = printed(("1.27", "1.293"), "1.06", "1.17")
 WORDS = [word(symbols) for symbols in ("0011", "1011", "0111", "1111")]
 FALLS = ((pair_of(-6, -5), STEEP[0][1]), STEEP[1])
 OTHER = replace(EXACT, eta=pair_of("0.2", "0.2"))
+
+
+def test_what_is_proved_of_the_plastic_map_is_no_image_of_an_edge():
+    """In an oscillator with epsilon = 0, where f is meant as well."""
+    of = replace(PAPER, epsilon=Fraction(0), reach=None)
+    phase = of.left[0]
+    known = Differential(PlasticMap(of.place), ((phase,) * 2,), (4,), (pair_of("1.2", "1.3"),), ())
+    assert known.place.holds(of)
+    for claim in ("N1", "N4"):
+        decision = find(claim).decide(of, [known])
+        assert decision.verdict is Verdict.UNDECIDED and "no proof about F" in decision.why
 
 
 def golden(first=V1, second=V2, part=PART, words=WORDS, names=("a", "b")):
