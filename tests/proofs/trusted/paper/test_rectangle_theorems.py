@@ -262,6 +262,39 @@ def test_what_is_proved_of_the_plastic_map_is_no_image_of_an_edge():
         assert decision.verdict is Verdict.UNDECIDED and "no proof about F" in decision.why
 
 
+LEFT_CORNER = ("1.11", "0", ("1.2", "1.21"), 4)
+
+
+@pytest.mark.parametrize(
+    ("other", "verdict"),
+    [
+        (("1.15", "-0.45", ("1.3", "1.31"), 4), Verdict.REFUTED),
+        (("1.15", "-0.45", ("7.6", "7.603"), 4), Verdict.REFUTED),  # 1.32 + 2 pi = 7.60318...
+        (("1.15", "-0.45", ("7.603", "7.604"), 4), Verdict.UNDECIDED),  # across, a turn later
+        (("1.15", "-0.45", ("-5.174", "-5.1"), 4), Verdict.UNDECIDED),  # across, turned over
+        (("1.15", "-0.45", ("1.3", "1.31"), 5), Verdict.UNDECIDED),
+        (("1.32", "-0.45", ("1.33", "1.34"), 4), Verdict.UNDECIDED),  # an edge of V2
+        (("1.11", "-0.45", ("1.2", "1.21"), 4), Verdict.UNDECIDED),  # of the same edge
+        (None, Verdict.UNDECIDED),
+    ],
+)
+def test_an_edge_that_falls_short_is_not_beyond_in_another_turn(other, verdict):
+    """By one corner of a rectangle the other edge may be any number of turns away."""
+    at = Place.restituting(PAPER.eta, PAPER.nu, PAPER.epsilon)
+    found = [
+        Differential(
+            Oscillator(at.sides),
+            (pair_of(phase, phase), pair_of(gamma, gamma)),
+            (turns,),
+            (pair_of(*image), GAMMA),
+            (),
+        )
+        for phase, gamma, image, turns in filter(None, (LEFT_CORNER, other))
+    ]
+    assert find("N1").decide(PAPER, found).verdict is verdict
+    assert find("N1").decide(PAPER, found[::-1]).verdict is verdict
+
+
 def golden(first=V1, second=V2, part=PART, words=WORDS, names=("a", "b")):
     known = {"a": first, "b": second, "n": part} | {f"w{n}": x for n, x in enumerate(words)}
     wider = {"rectangles": [*names], "words": [name for name in known if name[0] == "w"]}
