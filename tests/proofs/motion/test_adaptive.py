@@ -8,8 +8,8 @@ from mpmath import mp, mpf
 
 from proofs.motion.brackets import impact_time, impact_times
 from proofs.motion.branch import Branch
-from proofs.motion.candidate import next_impact
 from proofs.motion.covering import bits_needed, cover_by
+from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
 from proofs.motion.witness import FLOATS, FlightBox, Unsettled, locate, march
 from proofs.search.image import Image, image
@@ -177,7 +177,7 @@ def test_unsettled_knows_where_the_gap_is_positive(single, asked):
         next_impact(System(eta, nu), float(phase) + 1e-3),
         next_impact(System(eta, nu), float(phase) - 1e-3),
     )
-    horizon = Fraction(min(one[0] for one in about)) + 5
+    horizon = Fraction(min(each.time for each in about)) + 5
     with pytest.raises(Unsettled) as refused:
         march(box, COVER_BITS, horizon, Fraction(1, 8), start, single=single)
     excluded, latest = refused.value.excluded, max(time for _, time in asked)
