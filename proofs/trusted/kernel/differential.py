@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
-from itertools import pairwise
+from itertools import pairwise, zip_longest
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
@@ -23,14 +23,14 @@ from proofs.trusted.kernel.enclose import (
     read_box,
 )
 from proofs.trusted.kernel.laps import Gap, SlopeRange, meets, shifted, turn_of
-from proofs.trusted.kernel.maps import Bent, Map, counted, read_turns, turned
+from proofs.trusted.kernel.maps import Bent, Map, lifted, read_turns, turned
+from proofs.trusted.kernel.trees import is_name
 from proofs.trusted.numbers import (
     Range,
     between,
     common,
     increasing,
     mean_values,
-    show_range,
     within,
 )
 
@@ -68,9 +68,9 @@ class Differential(Conclusion):
 
 
 def less(map_: Map, turns: Sequence[int]) -> str:
-    """Say how many periods of its angles images are less, if it has any."""
-    lifts = [f"{counted(n)} of `{v}`" for v, n in zip(angles(map_), turns, strict=True)]
-    return f" (less {', '.join(lifts)})" if lifts else ""
+    """Say how many periods of its angles are taken off images, if it has any."""
+    lifts = [f"{lifted(n)} of `{v}`" for v, n in zip(angles(map_), turns, strict=True)]
+    return f" ({', '.join(lifts)})" if lifts else ""
 
 
 def angles(map_: Map) -> list[str]:
@@ -143,11 +143,24 @@ class Image(Gap):
     def sentence(self) -> str:
         """Return the statement."""
         place = box_text(self.box, self.function.variables)
-        values = ", ".join(map(show_range, self.bounds))
         return (
             f"for {self.function.definition}: `{self.function.name}` is defined for {place}, and "
-            f"its values are in {values}."
+            f"its values are {box_text(self.bounds, labels(self.function))}."
         )
+
+
+def labels(map_: Map) -> tuple[str, ...]:
+    """Return names for the values of a map to as many variables, or more; of others none.
+
+    A value that is written as another variable alone, such as the time, has its name; each other
+    one that of the variable in its place.
+    """
+    trees, variables = [*map(str, getattr(map_, "trees", ()))], map_.variables
+    names = [
+        tree if is_name(tree) and tree not in variables else variable
+        for tree, variable in zip_longest(trees, variables, fillvalue="")
+    ]
+    return tuple(names) if len(trees) == len(names) == len({*names} - {""}) else ()
 
 
 def image(context: Context, reader: Reader) -> Image:
