@@ -190,7 +190,6 @@ class Oscillator(PaperMap):
 class PlasticMap(PaperMap):
     """The plastic impact map f: from the phase of an impact to that of the next, on a circle."""
 
-    definition: ClassVar = "f"
     smooth: ClassVar = ", all first impacts from there being transversal"
     of_orbits: ClassVar = (
         "; all its impacts are transversal, and after each the mass leaves the table at once"
@@ -200,6 +199,11 @@ class PlasticMap(PaperMap):
         """Take the oscillators."""
         equations = Equations("f", ("phi",), (0, _PHASE), at.side, at.sides[:2])
         super().__init__(equations, 1, (_LEAVES,), latest=latest)
+
+    @property
+    def definition(self) -> str:
+        """What it is; no function of a file, though one may be called so."""
+        return f"f at {self.at}"
 
     def jacobian(self, x: Sequence[Enclosure]) -> Matrix:
         """Enclose f' by `slope`."""
