@@ -201,6 +201,8 @@ def _boxes(closing: Closing, point: Floats, matrix: Rows, has_ranges: bool) -> I
         flat = Piece(box, (Fraction(0),) * len(box))
         enclosures = krawczyk(closing, flat, middle, matrix, (None, _BITS))
         image = {k: each.range for k, each in enclosures.items()}
+        if any(high - low > _FAR for low, high in image.values()):
+            return
         if all(box[k][0] < low and high < box[k][1] for k, (low, high) in image.items()):
             yield box
             return

@@ -325,6 +325,16 @@ def test_two_walls_at_once_are_no_impact_with_one():
 
 
 @pytest.mark.slow
+def test_a_wall_that_would_be_hit_soon_after_another():
+    """In a wedge, Y = |X|, from (1, 1) with (-1/2, 1) and gravity 1: its left wall is hit at
+    (1 + sqrt(17))/2 = 2.56, its right one would be at 3.
+    """
+    wedge = System(tomllib.loads(WEDGE))
+    theorem = accepted(wedge.impact(x="1", u="-0.5", w="1"))
+    assert "`x` in [0.28" in theorem.conclusion.sentence and "`t` in [2.56" in str(theorem)
+    assert inside(theorem.conclusion.bounds[3:], (1 + 17**0.5) / 2)
+
+
 def test_orbits_with_two_walls():
     walls = System.example("two-walls")
     (found,) = accepted(walls.orbits(1))
@@ -436,6 +446,16 @@ def test_a_file_that_is_wrong_is_told_in_a_line(tmp_path, old, new, reason):
     assert "\n" not in str(refused.value) and str(file) in str(refused.value)
 
 
+WEDGE = """
+variables = ["x", "u", "w"]
+time = "t"
+motion.X = { equation = "X'' = 0", start = ["s*x", "u"] }
+motion.Y = { equation = "Y'' = -1", start = ["x", "w"] }
+impact = [
+  { wall = "right", at = { s = "1" }, gap = "Y - X", x = "Y", u = "Y'", w = "X'" },
+  { wall = "left", at = { s = "-1" }, gap = "Y + X", x = "Y", u = "-Y'", w = "-X'" },
+]
+"""
 FAST = """
 variables = ["phi", "v"]
 time = "t"

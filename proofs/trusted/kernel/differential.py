@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
-from itertools import pairwise, zip_longest
+from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
@@ -150,17 +150,16 @@ class Image(Gap):
 
 
 def labels(map_: Map) -> tuple[str, ...]:
-    """Return names for the values of a map to as many variables, or more; of others none.
+    """Return names for the values of a map, if it has some.
 
-    A value that is written as another variable alone, such as the time, has its name; each other
-    one that of the variable in its place.
+    They are those of the variables in their places, and after them what is written as a name, as
+    the time is; if all values are written as names of others, as states of a flow, these.
     """
-    trees, variables = [*map(str, getattr(map_, "trees", ()))], map_.variables
-    names = [
-        tree if is_name(tree) and tree not in variables else variable
-        for tree, variable in zip_longest(trees, variables, fillvalue="")
-    ]
-    return tuple(names) if len(trees) == len(names) == len({*names} - {""}) else ()
+    trees, n = [*map(str, getattr(map_, "trees", ()))], len(map_.variables)
+    if not all(map(is_name, trees[n:])) or len(trees) < n:
+        return ()
+    is_other = all(is_name(each) and each not in map_.variables for each in trees)
+    return tuple(trees) if is_other else (*map_.variables, *trees[n:])
 
 
 def image(context: Context, reader: Reader) -> Image:
