@@ -91,6 +91,11 @@ class Flow:
         return self.outcome.size
 
     @property
+    def trees(self) -> tuple[Tree, ...]:
+        """The values, as they are written."""
+        return self.outcome.trees
+
+    @property
     def circles(self) -> tuple[Circle, ...]:
         """The angles among the variables."""
         return self.outcome.circles
@@ -103,7 +108,7 @@ class Flow:
     def definition(self) -> str:
         """Write F(w) = values, when, and which equation with which start."""
         *states, time = self.outcome.variables[self.first :][: self.equation.n + 1]
-        values = ", ".join(map(str, self.outcome.trees))
+        values = ", ".join(map(str, self.trees))
         rates, starts = (
             ", ".join(f"`{left.format(x)} = {tree}`" for x, tree in zip(states, trees, strict=True))
             for left, trees in (
