@@ -6,6 +6,7 @@ from fractions import Fraction
 import pytest
 from mpmath import mp, mpf
 
+from proofs.benchmark.peers import FLINT, arithmetic
 from proofs.motion.brackets import impact_time, impact_times
 from proofs.motion.covering import bits_needed, cover_by
 from proofs.motion.simulate import next_impact
@@ -13,6 +14,7 @@ from proofs.motion.system import System
 from proofs.motion.witness import FlightBox, Unsettled, locate, march
 from proofs.search.image import Image, image
 from proofs.stress.grazing import graze
+from proofs.stress.truth import BITS
 from proofs.trusted import flights as trusted
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -136,7 +138,7 @@ def in_json(values):
 @pytest.mark.parametrize("side", [-1, 1])
 @pytest.mark.parametrize("exponent", [5, 17, 30])
 def test_what_is_found_next_to_grazing_is_what_the_checker_finds(exponent, side):
-    eta, nu, phase = graze(2)
+    eta, nu, phase = graze(arithmetic(FLINT, BITS), 2)
     point = phase + side * Fraction(1, 10**exponent)
     found = locate(flights(System(eta, nu), point))
     assert found.transversal and len(found.windows) == 1
@@ -169,7 +171,7 @@ def asked(monkeypatch):
 @pytest.mark.parametrize("single", [True, False])
 def test_unsettled_knows_where_the_gap_is_positive(single, asked):
     # a launch next to grazing, looked at with coarse steps: the minimum is neither > 0 nor < 0
-    eta, nu, phase = graze(2)
+    eta, nu, phase = graze(arithmetic(FLINT, BITS), 2)
     box, start = flights(System(eta, nu), phase), [Fraction(1, 64)]
     about = (
         next_impact(System(eta, nu), float(phase) + 1e-3),
