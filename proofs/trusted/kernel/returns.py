@@ -198,6 +198,8 @@ class ReturnMap:
     def _searched(self, launches: Launches) -> Range:
         search = FirstZero(launches, self.gaps[0], self._taken.get(launches.states[0].bits, []))
         window = search.window(self.latest)
+        if len(self.gaps) > 1:  # other walls may be reached soon after this one
+            window = Impact.sharp(launches, window).time.range
         for gap in self.gaps[1:]:
             FirstZero(launches, gap).require_none(window[1])
         self._taken[search.bits] = search.taken
