@@ -75,11 +75,6 @@ def middle(x: Enclosure) -> Fraction:
     return Fraction(x.lo + x.hi, 2 << x.bits)
 
 
-def halvings_for(window: Range, width: Fraction, spare: int) -> int:
-    """Return how often to halve a window, until what may be gained is small beside a width."""
-    return spare + min(300, ((window[1] - window[0]) / width).__ceil__().bit_length())
-
-
 def last_positive(function: Callable[[int], float], most: int) -> int:
     """Return the last whole number below `most` at which a decreasing function is > 0; else 0.
 

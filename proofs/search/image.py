@@ -12,9 +12,8 @@ from functools import partial
 
 from intervals import Undecided
 from proofs.methods.extremes import extremes
-from proofs.motion.branch import Branch
-from proofs.motion.covering import bits_needed, cover_by, halves, steps_for
-from proofs.motion.digits import bits_for, phase_after, to_digits
+from proofs.motion.covering import bits_needed, halves, steps_for
+from proofs.motion.digits import phase_after, to_digits
 from proofs.motion.landing import separation, separation_phase
 from proofs.motion.system import System
 from proofs.motion.witness import (
@@ -32,6 +31,7 @@ from proofs.search.steps import Prover
 from proofs.trusted.equations import launch_acceleration
 from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.enclose import enclosed
+from proofs.trusted.kernel.firstzero import NoFirstZero
 from proofs.trusted.numbers import COVER_BITS, Range, hull
 from proofs.trusted.paper.s34_circle.landing import Separation
 
@@ -165,32 +165,39 @@ def _dwell(phases: Range, leave: Range, bits: int) -> Range:
 
 def _over_interval(prover: Prover, phases: Range) -> Image:
     """Enclose the ranges of t, phi + t and f' by `extremes`; derivatives f' - 1, f' and f''."""
-    parts = floats_first(
-        lambda floats: [
-            part.proved()
-            for part in cover_by(prover.flights(phases), horizon=prover.horizon, floats=floats)
-        ]
-    )
-    places = max((1 / part.windows[0][0]).__ceil__().bit_length() - 1 for part in parts)
-    branch = Branch([("", part) for part in parts], bits_for(prover.digits) + places, floats=False)
+    f = prover.impact_map
 
-    def time(x: Fraction) -> Range:
-        return branch.flight(x, x)[1]
+    def bounds_at(x: Fraction, bits: int) -> tuple[Range, Range]:
+        point = enclosed(((x, x),), bits)
+        try:
+            return f.impact(point).range, f.jacobian(point)[0][0].range
+        except NoFirstZero as error:
+            raise NoImpact(str(error)) from None
+
+    def at_ends(bits: int) -> tuple[int, list[Range]]:
+        more = bits + _ROOM
+        return more, [each for end in phases for each in bounds_at(end, more)]
+
+    bits, _ = to_digits(prover.digits, at_ends, lambda answer: answer[1], final=(NoImpact,))
 
     def image_at(x: Fraction) -> Range:
-        low, high = time(x)
+        low, high = bounds_at(x, bits)[0]
         return x + low, x + high
 
-    def slope_at(x: Fraction) -> Range:
-        return branch.slope(x, x)
+    def slope(low: Fraction, high: Fraction) -> Range:
+        return f.jacobian(enclosed(((low, high),), bits))[0][0].range
+
+    def bend(low: Fraction, high: Fraction) -> Range:
+        return f.bend(enclosed(((low, high),), bits)).range
 
     def faster(low: Fraction, high: Fraction) -> Range:
-        least, most = branch.slope(low, high)
+        least, most = slope(low, high)
         return least - 1, most - 1
 
-    slopes = extremes(slope_at, branch.curvature, branch.ends, most=_PIECES)
-    flights = extremes(time, faster, branch.ends, most=_PIECES)
-    images = extremes(image_at, branch.slope, branch.ends, most=_PIECES)
+    ends = prover.parts(phases, lambda part: bool(slope(*part)), "grazing")
+    slopes = extremes(lambda x: bounds_at(x, bits)[1], bend, ends, most=_PIECES)
+    flights = extremes(lambda x: bounds_at(x, bits)[0], faster, ends, most=_PIECES)
+    images = extremes(image_at, slope, ends, most=_PIECES)
     arrival = (images.minimum[0], images.maximum[1])
 
     def prove() -> Proved:
@@ -198,7 +205,7 @@ def _over_interval(prover: Prover, phases: Range) -> Image:
 
     return Image(
         (flights.minimum[0], flights.maximum[1]),
-        phase_after(Fraction(0), arrival, branch.bits + _ROOM),
+        phase_after(Fraction(0), arrival, bits),
         (slopes.minimum[0], slopes.maximum[1]),
         sticking=False,
         prove=prove,
@@ -230,7 +237,7 @@ def _windows(flights: FlightBox, horizon: Fraction) -> tuple[Range, ...]:
     finest = max(steps_for(flights.phases), _COARSE)
 
     def at_precision(bits: int) -> tuple[Range, ...]:
-        return march(flights, bits, horizon, finest).proved().windows
+        return march(flights, bits, horizon, finest).proved_windows()
 
     for bits in (FLOATS, COVER_BITS):
         try:

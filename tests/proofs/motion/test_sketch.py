@@ -9,12 +9,8 @@ from hypothesis import strategies as st
 
 from intervals import DomainError
 from proofs.motion.sketch import Sketch
-from proofs.motion.system import System
-from proofs.motion.witness import HORIZON
-from proofs.search.steps import Prover
 from proofs.trusted.kernel.arithmetic import Enclosure
 from proofs.trusted.kernel.gaps import falls, stays_up
-from proofs.trusted.parameters import PAPER
 
 ends = st.lists(st.fractions(-9, 9, max_denominator=999), min_size=2, max_size=2).map(sorted)
 
@@ -64,39 +60,3 @@ def test_what_a_float_is_too_small_for_is_refused():
     ):
         with pytest.raises(DomainError):
             make()
-
-
-def prover():
-    return Prover(System(PAPER.eta, PAPER.nu), 30, HORIZON)
-
-
-JOBS = {
-    "avoids": lambda by: by.avoids(PAPER.gap, PAPER.interval),
-}
-
-
-def blind(*_):
-    raise DomainError("floats are no help")
-
-
-@pytest.mark.parametrize("job", JOBS)
-def test_what_is_concluded_is_what_the_checker_s_numbers_see(job, monkeypatch):
-    _, found = JOBS[job](prover())
-    monkeypatch.setattr(Sketch, "sincos", blind)
-    assert JOBS[job](prover())[1] == found
-
-
-@pytest.mark.parametrize("job", JOBS)
-@pytest.mark.parametrize(
-    ("name", "lie"),
-    [
-        ("sincos", lambda self: (Sketch(0.5, 0.6), Sketch(0.7, 0.8))),
-        ("__mul__", lambda self, other: Sketch(1.0, 1.0)),
-        ("__sub__", lambda self, other: Sketch(-1.0, 1.0)),
-    ],
-)
-def test_a_sketch_that_is_wrong_is_not_believed(name, lie, job, monkeypatch):
-    """The rules refuse what it shows, and the checker's numbers find the proof."""
-    _, expected = JOBS[job](prover())
-    monkeypatch.setattr(Sketch, name, lie)
-    assert JOBS[job](prover())[1] == expected
