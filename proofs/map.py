@@ -14,7 +14,7 @@ from typing import Any, Self
 
 from intervals import Undecided
 from proofs.methods.ends import Ends, Exact, box_of, exact_sides, listed, optional
-from proofs.methods.grammar import GrammarError, canonical, name, names, typed
+from proofs.methods.grammar import GrammarError, as_typed, canonical, name, names, typed
 from proofs.theorem import Theorem
 from proofs.trusted.certificate import Malformed, texts
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -26,6 +26,11 @@ _DIGITS, _BITS = 12, 128  # of images
 EFFORT = 3
 _POINTS, _PASSED, _LONGEST = 1500, 4, 8  # of a picture; periods that are looked for
 _SIDE = Fraction(-3), Fraction(3)  # of a box where points are looked for, if none is given
+_HINTS = {  # what to do about a reason why a map is none
+    "unknown variable": ": give it a value among the parameters",
+    "respect the period": ": with one period more each value is to change by periods of its own, "
+    "or not at all; periods are exact, as 2*pi",
+}
 
 
 class Map:
@@ -72,8 +77,8 @@ class Map:
             self._kernel = Derivation(self.functions).map(function)
         except (Malformed, Unproved) as error:
             reason = str(error).partition(": ")[2] if str(error)[0] == "$" else str(error)
-            hint = ": give it a value among the parameters" if "unknown variable" in reason else ""
-            raise GrammarError(reason + hint) from None
+            hints = (hint for each, hint in _HINTS.items() if each in reason)
+            raise GrammarError(as_typed(reason) + next(hints, "")) from None
 
     @property
     def variables(self) -> tuple[str, ...]:
@@ -158,7 +163,7 @@ class Map:
         """
         from proofs.methods.shifts import Candidates, find_horseshoe
 
-        reason = Undecided("nothing was looked at")
+        reason = "nothing was looked at"
         saddles: list[Any] = []
         for power in range(1, longest + 1):
             for cycle in self._cycles(power, box):
@@ -170,8 +175,8 @@ class Map:
             try:
                 return theorem_of(file, find_horseshoe(file, name, candidates))
             except Undecided as error:
-                reason = error
-        raise reason
+                reason = str(error)
+        raise Undecided(f"{reason}; horseshoe:{longest + 2} looks at later iterates, up to 9")
 
     def periodic_orbits(self, period: int, box: Box) -> Theorem:
         """Prove which periodic orbits a formula has in a box, and that there are no others."""
@@ -278,7 +283,8 @@ class Map:
             starts = as_points([centre_of(box_of(self.variables, state)) for state in near])
         else:
             starts = seeds(sampled, self.region(box), int(sampled.starts * period * self._share))
-        return cycles(sampled, period, starts)
+        sides = self.region(box)
+        return sorted(cycles(sampled, period, starts), key=lambda each: not each.meets(sides))
 
     def sample(self) -> Any:
         """Return points in floating point, a row each, that others at random come to."""
@@ -294,6 +300,8 @@ class Map:
 
     def region(self, box: Box | None = None) -> list[Range]:
         """Return a box where points are looked for: angles all around, others as given."""
+        if not isinstance(box, Mapping | None):
+            raise TypeError(f"a box is as {{'x': ('0', '1')}}, not {box!r}")
         sides = exact_sides({**self.box, **(box or {})})
         if unknown := sorted({*sides} - {*self.variables}):
             raise ValueError(

@@ -47,7 +47,7 @@ class Theorem:
             more = f"- and {len(self) - most} more of this kind, in the certificate"
             return f"{Theorem(self.conclusions[:most], '')}\n{more}"
         lines = [each.sentence if each.place is None else told([each]) for each in self.conclusions]
-        shared = _shared(lines).rpartition(": ")[0] if len(lines) > 1 else ""
+        shared = _shared(lines) if len(lines) > 1 else ""
         if not shared:
             return "\n".join(lines)
         return "\n".join([f"{shared}:", *(f"- {line[len(shared) + 2 :]}" for line in lines)])
@@ -75,6 +75,7 @@ class Theorem:
 
 
 def _shared(lines: list[str]) -> str:
-    """Return what texts begin with in common."""
+    """Return what texts begin with in common, up to a colon or a semicolon."""
     columns = takewhile(lambda letters: len({*letters}) == 1, zip(*lines, strict=False))
-    return "".join(letters[0] for letters in columns)
+    text = "".join(letters[0] for letters in columns)
+    return text[: max(text.rfind(": "), text.rfind("; "), 0)]

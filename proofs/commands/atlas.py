@@ -23,6 +23,7 @@ from typing import Any
 
 from proofs.commands.system import add_subject, subject
 from proofs.methods.ends import ends_of
+from proofs.methods.grammar import name as spelled
 from proofs.plane import summary
 from proofs.plane.head import executor, run
 from proofs.plane.store import LINES, SAMPLE, Held, Store, file_of, opened
@@ -160,7 +161,7 @@ def _own_region(parser: Parser, options: Namespace) -> Region:
     system = subject(options, dict(sides))
     (one, first), (two, second) = sides
     where = tuple(system.region())
-    made = Systems(system.functions, system.function, (one, two), where)
+    made = Systems(system.functions, system.function, (spelled(one), spelled(two)), where)
     return Region(first, second, options.ask, made)
 
 

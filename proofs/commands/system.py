@@ -26,6 +26,7 @@ from typing import Any, NamedTuple, TypeVar
 from intervals import Undecided
 from proofs.map import EFFORT, Map
 from proofs.methods.ends import Ends
+from proofs.methods.grammar import as_typed
 from proofs.shell.backstop import Overrun, within
 from proofs.shell.cli import Parser, heard, number, progress, share, whole
 from proofs.shell.files import write_files
@@ -61,7 +62,9 @@ _QUESTIONS = {
     ),
     "stable": Question("an attracting periodic orbit exists", "stable", ""),
     "horseshoe": Question(
-        "the map, or its second iterate, has a full shift on two symbols", "horseshoe", ""
+        "one of the first N iterates of the map has a full shift on two symbols",
+        "horseshoe:2",
+        "[1-9]?",
     ),
     "image": Question("where the map takes these states", "image:X=A,Y=B:C", _STATE),
     "trapping": Question(
@@ -95,6 +98,7 @@ _QUESTIONS = {
         _SIDE,
     ),
 }
+_USUAL = {"horseshoe": 2}  # the number N, where none is given
 _COUNTED = {"orbits": "orbits", "all": "periodic_orbits"}  # methods that take a period
 _ASKABLE = ", ".join(each.example for each in _QUESTIONS.values())
 EPILOG = """\
@@ -127,6 +131,7 @@ class Answer(NamedTuple):
     def statement(self) -> str:
         """The question as a sentence."""
         kind, _, number = self.id.partition(":")
+        number = number or str(_USUAL.get(kind, ""))
         return re.sub(r"\bN\b", number, _QUESTIONS[kind].statement)
 
     @property
@@ -217,6 +222,8 @@ def _pair(text: str) -> tuple[str, str]:
     name, equals, value = text.partition("=")
     if not (name and equals and value):
         raise ArgumentTypeError(f"NAME=VALUE or NAME=LOW:HIGH is expected, not {text[:40]!r}")
+    if "=" in value:
+        raise ArgumentTypeError(f"several are written with spaces between, not {text[:40]!r}")
     return name, value
 
 
@@ -281,12 +288,14 @@ def _answer(system: Map, asked: str) -> Answer:
     try:
         if kind == "all":
             return Answer(asked, ask(int(more), system.box), "")
+        if kind == "horseshoe":
+            return Answer(asked, ask(longest=int(more or _USUAL[kind])), "")
         if kind in _COUNTED:
             return Answer(asked, ask(int(more)), "")
         values = {name: _ends(value) for name, value in map(_pair, more.split(","))} if more else {}
         return Answer(asked, ask(**values), "")
     except Undecided as error:
-        return Answer(asked, None, str(error))
+        return Answer(asked, None, as_typed(str(error)))
 
 
 def _told(answers: Sequence[Answer], seen: Sequence[str]) -> Iterator[str]:
@@ -300,7 +309,7 @@ def _told(answers: Sequence[Answer], seen: Sequence[str]) -> Iterator[str]:
         yield f"{answer.id:12} {answer.verdict.value:10} {answer.statement}{why}"
     yield ""
     yield "Seen in floating point, not proved:"
-    yield from (f"  {line}" for line in seen)
+    yield from (f"  {as_typed(line)}" for line in seen)
 
 
 def _machine(system: Map, answers: Sequence[Answer]) -> dict[str, Any]:

@@ -50,7 +50,7 @@ def residual(
     state, periods = function["variables"], function.get("periods", {})
     angles = dict(zip(periods, turns, strict=True))
     values = [
-        f"({value}) - {name}" + (f" - {angles[name]}*({periods[name]})" if name in angles else "")
+        f"({value}) - {name}" + _less(angles.get(name, 0), periods.get(name, ""))
         for name, value in zip(state, function["values"], strict=True)
     ]
     if multiplier is not None:
@@ -61,6 +61,12 @@ def residual(
     renamed = {"e": "ee"} if "e" in moving else {}  # no variable is named e
     read = _read({**made, "variables": [*state, *moving], "values": values}, renamed)
     return dict(read)
+
+
+def _less(turns: int, period: str) -> str:
+    """Return what takes so many periods off."""
+    factor = "" if abs(turns) == 1 else f"{abs(turns)}*"
+    return f" {'-' if turns > 0 else '+'} {factor}({period})" if turns else ""
 
 
 def _require_one(function: Mapping[str, Any]) -> dict[str, Any]:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from proofs.trusted.kernel.expression import Tape
 from proofs.trusted.kernel.flow import Flow
 from proofs.trusted.kernel.formulas import Formulas
 
@@ -17,9 +18,23 @@ Compiled = Callable[..., Any]
 
 _ROW = (2, 4, 6, 8, 10, 12)  # midpoint rules of a step; exact to the order 12
 _EXACT, _FAR = 1e-11, 1e4  # the error of a step, as a part of states; where they are lost
-_FIRST, _SHORTEST, _LONGEST, _LATEST = 1 / 16, 1 / 64, 1 / 4, 32.0
+_FIRST, _SHORTEST, _LONGEST, _LATEST = 1 / 512, 1 / 64, 1 / 4, 32.0
+_PACE, _PERIODS = 4, 8  # the speed of a phase from which steps are shorter; they more than times
 _NEWTON = 5
+AT_ONCE = "at once, as at rest or after chatter"
 _ZERO = 1e-12  # a gap that is so small at the start is 0
+
+
+def phase_speeds(tape: Tape, roots: Sequence[int], time: int) -> list[int]:
+    """Return the derivatives by the time of what roots take the sine or cosine of."""
+    nodes = (tape.nodes[place] for place in tape.order(tuple(roots)))
+    phases = dict.fromkeys(node.arguments[0] for node in nodes if node.op in ("sin", "cos"))
+    return [tape.derivative(phase, time) for phase in phases]
+
+
+def pace(speeds: Any) -> float:
+    """Return by how much steps are shorter than usual, at speeds of phases: 1 or more."""
+    return max(1.0, float(np.nanmax(np.abs([*speeds]), initial=0)) / _PACE)
 
 
 @dataclass(frozen=True)
@@ -46,11 +61,12 @@ class Flown:
         x = self._function(flow.start)(w, np.zeros((flow.equation.n, count)), np.zeros(count))
         values, falls = np.full((flow.size, count), np.nan), np.zeros(count, int)
         begin, arrivals = w, list[tuple[Floats, ...]]()
-        above, time, h = first(w, x, np.zeros(count))[0] > _ZERO, 0.0, _FIRST
-        while here.size and time < _LATEST:
+        above, time, unit = first(w, x, np.zeros(count))[0] > _ZERO, 0.0, 1 / self._pace(w, x)
+        h, latest = _FIRST * unit, min(_LATEST, _PERIODS * _LATEST * unit)
+        while here.size and time < latest:
             after, error = _step(rate, w, x, np.full(here.size, time), np.full(here.size, h))
             exact = error < _EXACT
-            if not exact.all() and h > _SHORTEST:
+            if not exact.all() and h > _SHORTEST * unit:
                 h /= 2
                 continue
             t = np.full(here.size, time + h)
@@ -65,12 +81,30 @@ class Flown:
                 going &= wall(w, after, t)[0] > 0
             w, x, here, falls = w[:, going], after[:, going], here[going], falls[going]
             above, time = (gap > 0)[going], time + h
-            h = min(2 * h if (error < _EXACT / 2**13).all() else h, _LONGEST)
+            h = min(2 * h if (error < _EXACT / 2**13).all() else h, _LONGEST * unit)
         if arrivals:
             who, *way = (np.concatenate(each, axis=-1) for each in zip(*arrivals, strict=True))
             end = _landed(rate, first, begin[:, who], way)
             values[:, who] = self._function(flow.outcome)(begin[:, who], *end)
         return values
+
+    def undefined(self, w: Floats) -> str:
+        """Say why a point, a column, has no image."""
+        flow, soon = self.flow, np.full(1, _FIRST)
+        w = np.array([*w, *(np.full(1, value) for value in self.parameters)])
+        x = self._function(flow.start)(w, np.zeros((flow.equation.n, 1)), np.zeros(1))
+        after, _ = _step(self._function(flow.section.velocity), w, x, np.zeros(1), soon)
+        if flow.end.walls and self._function(flow.section.gap.formulas)(w, after, soon)[0] <= 0:
+            return f"{AT_ONCE}: {flow.end.gaps[0]} is not > 0 right after the impact"
+        return "where the motion goes far away, or is not seen to end"
+
+    def _pace(self, w: Floats, x: Floats) -> float:
+        """Return by how much steps are shorter: the speed of phases in the equation and the gap."""
+        time, speeds = self.flow.first + self.flow.equation.n, list[Floats]()
+        for formulas in (self.flow.section.velocity, self.flow.section.gap.formulas):
+            if roots := phase_speeds(formulas.tape, formulas.roots, time):
+                speeds += [*self._function(replace(formulas, roots=tuple(roots)))(w, x, 0 * w[0])]
+        return pace(speeds)
 
     def _function(self, formulas: Formulas) -> Compiled:
         function = self.compile(formulas.tape, formulas.roots)

@@ -144,6 +144,7 @@ def widened(candidates: Frames) -> Frames:
     return replace(candidates, matrices=candidates.matrices * factors)
 
 
+@np.errstate(all="ignore")
 def laps(sampled: Sampled, side: Range) -> Frames:
     """Return two intervals that a map of the line takes across both, as steeply as is seen.
 
@@ -184,6 +185,7 @@ def laps(sampled: Sampled, side: Range) -> Frames:
 
 def crossing(sampled: Sampled, candidates: Frames) -> float:
     """Return by how much a sample of points crosses, linearly; Undecided where it does not."""
+    _require_apart(sampled, candidates)
     n = candidates.centres.shape[1]
     q, margin = np.array(list(product(np.linspace(-1, 1, _SAMPLES), repeat=n))).T, np.inf
     for i, centre in enumerate(candidates.centres):
@@ -201,3 +203,14 @@ def crossing(sampled: Sampled, candidates: Frames) -> float:
             if not (margin > 0 and len({*np.sign(ends)}) == 1):
                 raise Undecided("the image of a set does not cross another one")
     return margin
+
+
+def _require_apart(sampled: Sampled, candidates: Frames) -> None:
+    """Raise Undecided where two sets meet: no normal of a face separates them."""
+    inverses = np.linalg.inv(candidates.matrices)
+    for i, j in combinations(range(len(candidates.centres)), 2):
+        apart = candidates.centres[i] - candidates.centres[j]
+        normals = np.concatenate(inverses[[i, j]])
+        reach = sum(np.abs(normals @ candidates.matrices[k]).sum(axis=1) for k in (i, j))
+        if not (np.abs(normals @ (apart - whole_periods(sampled, apart))) > reach).any():
+            raise Undecided("two sets meet")

@@ -22,7 +22,8 @@ from proofs.trusted.kernel.trees import formula
 
 _TOKEN = re.compile(
     r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
-    r"|(?P<name>[A-Za-z_]\w*)(?P<primes>'*)|(?P<op>\*\*|[-+*/^(),=]))"
+    r"|(?P<name>[A-Za-z_]\w*)(?P<primes>'*)|(?P<op>\*\*|[-+*/^(),=]))",
+    re.ASCII,
 )
 _DIGITS = 190  # of a numerator or denominator: certificates take 400 characters a number
 _DERIVED = {
@@ -39,6 +40,17 @@ _OTHERS = {
     "arctan": "write atan",
     **dict.fromkeys(("mod", "floor", "frac"), _CIRCLE),
     **dict.fromkeys(("max", "min", "sign", "sgn", "heaviside"), _PIECES),
+}
+_SIGNS = {
+    "-": "\u2212\u2013\u2014",
+    "*": "\u00d7\u00b7\u22c5\u2217",
+    "/": "\u00f7\u2215",
+    "pi": "\u03c0",
+    "sqrt(...)": "\u221a",
+    "^2": "\u00b2",
+    "^3": "\u00b3",
+    "y', with a straight quote": "\u2019\u2032",
+    "y'', with straight quotes": "\u201d\u2033",
 }
 _KNOWN = (*FUNCTIONS, *_DERIVED)
 _NAME = re.compile(r"[A-Za-z](?:[a-z0-9_]{0,9}[a-z0-9])?")
@@ -102,6 +114,12 @@ def typed(name: str) -> str:
     return small if _spelled(small) == name else small.capitalize()
 
 
+def as_typed(text: str) -> str:
+    """Return a message with names and derivatives as they were typed: x' for D(x, t)."""
+    plain = re.sub(r"D\((\w+)((?:, \w+)+)\)", lambda m: m[1] + "'" * m[2].count(","), text)
+    return re.sub(r"\b[a-z]\w*_\b", lambda m: typed(m[0]), plain)
+
+
 def names(text: str) -> list[str]:
     """Return the names in a formula as the checker reads it."""
     return sorted(formula(text).free)
@@ -118,7 +136,7 @@ def _python(text: str, time: str) -> Iterator[str]:
     while place < len(text):
         match = _TOKEN.match(text, place)
         if match is None:
-            hint = f": {_CIRCLE}" if text[place:].lstrip()[0] == "%" else ""
+            hint = _hint(text[place:].lstrip()[0])
             raise GrammarError(f"{_at(text, place)}: this is in no formula{hint}")
         number, word, primes, op = match.group("number", "name", "primes", "op")
         if before in ("number", "name", ")") and (number or word or op == "("):
@@ -142,6 +160,16 @@ def _python(text: str, time: str) -> Iterator[str]:
         place = match.end()
     if not before:
         raise GrammarError("an empty formula")
+
+
+def _hint(letter: str) -> str:
+    """Say what to write in the place of a character that is in no formula."""
+    if letter.isascii():
+        return f": {_CIRCLE}" if letter == "%" else ""
+    for usual, others in _SIGNS.items():
+        if letter in others:
+            return f": write {usual}"
+    return ": names and numbers have the letters a to z and the digits alone, as in lambda"
 
 
 def _derivative(word: str, order: int, time: str) -> str:

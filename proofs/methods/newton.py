@@ -45,6 +45,11 @@ class Cycle(NamedTuple):
         sizes = self.multipliers
         return bool(sizes[-1] > 1.05 and (len(sizes) == 1 or sizes[-2] < 0.95))
 
+    def meets(self, box: Sequence[Range]) -> bool:
+        """Whether a point of it is in a box."""
+        low, high = np.array(box, float).T
+        return bool(((low <= self.points) & (self.points <= high)).all(axis=1).any())
+
 
 def cycles(sampled: Sampled, period: int, starts: Floats) -> list[Cycle]:
     """Return the periodic orbits of a least period to which Newton's method leads.
@@ -113,6 +118,7 @@ def along_orbit(sampled: Sampled, points: Floats) -> Floats:
     return product_
 
 
+@np.errstate(all="ignore")
 def whole_periods(sampled: Sampled, apart: Floats) -> Floats:
     """Return the whole periods next to differences of points, a row each; 0 without a period."""
     turns = np.where(np.isfinite(sampled.periods), np.round(apart / sampled.periods), 0)
@@ -195,6 +201,8 @@ def _boxes(closing: Closing, point: Floats, matrix: Rows, has_ranges: bool) -> I
         flat = Piece(box, (Fraction(0),) * len(box))
         enclosures = krawczyk(closing, flat, middle, matrix, (None, _BITS))
         image = {k: each.range for k, each in enclosures.items()}
+        if any(high - low > _FAR for low, high in image.values()):
+            return
         if all(box[k][0] < low and high < box[k][1] for k, (low, high) in image.items()):
             yield box
             return

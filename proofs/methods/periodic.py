@@ -13,6 +13,7 @@ from itertools import islice
 from intervals import Undecided
 from proofs.methods.derivation import Derivation
 from proofs.methods.formulas import dot, inverse
+from proofs.methods.grammar import typed
 from proofs.methods.lemmas import middles, undecided, written
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.arithmetic import Enclosure
@@ -20,12 +21,13 @@ from proofs.trusted.kernel.covers import Rows, images
 from proofs.trusted.kernel.enclose import enclosed, point_box
 from proofs.trusted.kernel.formulas import Formulas
 from proofs.trusted.kernel.periodic import Closing, Search
-from proofs.trusted.numbers import Range, within
+from proofs.trusted.numbers import Range, show, within
 
 _SMALLEST = 2.0**-24  # side of a tube from which Newton's method begins, as a part of the box's
 _MOST_TUBES = 50_000
 _STEPS, _BITS = 30, 160  # of Newton's method
 _PLACE, _RADIUS = Fraction(1, 10**26), Fraction(1, 10**22)  # of points
+_EDGE = 2 * _RADIUS  # about points: what is so near to a side of the box is on it
 _SAME = 15  # decimal places of points that are told apart
 
 Point = tuple[Fraction, ...]
@@ -34,7 +36,7 @@ Point = tuple[Fraction, ...]
 def prove_all_orbits(file: Derivation, function: str, period: int, box: Sequence[Range]) -> str:
     """Add a step `periodic-orbits`: all orbits of a formula in a box whose period divides one.
 
-    Raises Undecided where an orbit is not isolated, Unproved where the rule does not conclude.
+    Raises Undecided where an orbit is not isolated, or at the edge, or the rule does not conclude.
     """
     formula = file.map(function)
     if not isinstance(formula, Formulas) or formula.circles or formula.ranges:
@@ -48,13 +50,26 @@ def prove_all_orbits(file: Derivation, function: str, period: int, box: Sequence
             fixed, _ = _fixed(formula, period, middles(tube[0]))
             orbit = [middles(x) for x in images(formula, _precise(fixed), period)]
             names = [tuple(round(x, _SAME) for x in point) for point in orbit]
+            _require_no_edge(formula, orbit, box)
             if all(_lies_in(point, box) for point in orbit):
                 orbits[min(names)] = orbit[names.index(min(names))], len(set(names))
         if next(tubes, None):
             raise Undecided(f"{_MOST_TUBES} parts of the box may hold periodic orbits")
         listed = [_witness(formula, *orbits[name]) for name in sorted(orbits)]
-    witness = {"function": function, "period": str(period), "box": written(tuple(box))}
-    return file.add("periodic-orbits", {**witness, "radius": str(_RADIUS), "orbits": listed})
+        witness = {"function": function, "period": str(period), "box": written(tuple(box))}
+        return file.add("periodic-orbits", {**witness, "radius": str(_RADIUS), "orbits": listed})
+
+
+def _require_no_edge(formula: Formulas, orbit: Sequence[Point], box: Sequence[Range]) -> None:
+    """Raise Undecided where a point of an orbit in the box is next to an edge of it."""
+    if all(_lies_in(point, [(a - _EDGE, b + _EDGE) for a, b in box]) for point in orbit):
+        for point in orbit:
+            for name, x, side in zip(formula.variables, point, box, strict=True):
+                if end := [end for end in side if abs(x - end) < _EDGE]:
+                    raise Undecided(
+                        f"a periodic point is on the edge {typed(name)} = {show(end[0])} of the "
+                        "box, as far as is seen: give a box a little wider, or narrower, there"
+                    )
 
 
 def _lies_in(point: Point, box: Sequence[Range]) -> bool:

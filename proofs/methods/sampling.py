@@ -10,7 +10,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from proofs.methods.flows import Flown
+from proofs.methods.flows import AT_ONCE, Flown, pace, phase_speeds
 from proofs.trusted.kernel.expression import Tape
 from proofs.trusted.kernel.flight import Flight
 from proofs.trusted.kernel.flow import Flow
@@ -23,8 +23,10 @@ Function = Callable[..., Sequence[Any]]
 
 _BITS = 64  # of periods
 _STEP, _LONGEST = 1 / 32, 64.0  # of a flight
+_PERIODS = 8  # by so much more steps may be shorter than flights, where phases are fast
 _TOGETHER, _FEWEST, _MOST = 8192, 128, 2048  # gaps of all flights at once; steps of each
 _NEWTON = 4
+_JUST = 1e-12  # a part of a period by which an angle may be below 0
 _APART = 1e-6  # of points for differences
 _STARTS, _FEW = 120, 20  # points at random for a search
 
@@ -132,20 +134,25 @@ class Sampled:
         """Say why a point, a column, has no image under one of the parts."""
         if isinstance(part, Formulas):
             return "where the map is not defined"
+        if isinstance(part, Flow):
+            return Flown(part, self._parameters(part.ranges), compiled).undefined(x)
         if not isinstance(part, Flight):
-            return "where the motion goes far away, or is not seen to end"
+            raise TypeError(f"no way to sample a {type(part).__name__}")
         gaps = self._function(part.formulas, part.formulas.roots[: len(part.gaps)])
-        times = np.concatenate([[_STEP / 1024], np.arange(_STEP, _LONGEST, _STEP)])
+        step, longest = self._steps(part)
+        times = np.concatenate([[step / 1024], np.arange(step, longest, step)])
         with np.errstate(all="ignore"):
             passed = [np.broadcast_to(gap <= 0, times.shape) for gap in gaps(*x, times)]
         if not np.any(passed):
-            return f"no impact is seen up to the time {_LONGEST:g}"
+            return f"no impact is seen up to the time {longest:.3g}"
         first = np.any(passed, axis=0).argmax()
         gap = next(
             str(wall) for wall, is_in in zip(part.walls, passed, strict=True) if is_in[first]
         )
         if not first:
-            return f"at once, as at rest or after chatter: {gap} is not > 0 right after the impact"
+            return f"{AT_ONCE}: {gap} is not > 0 right after the impact"
+        if gap == str(part.walls[0]):
+            return f"at a graze, or nearly: {gap} is about 0, and so is its speed"
         return f"at another wall than is next in their order: {gap} is 0 first"
 
     @cached_property
@@ -160,13 +167,13 @@ class Sampled:
         )
 
     def reduced(self, x: Floats) -> Floats:
-        """Return points with their angles between 0 and their periods."""
+        """Return points with their angles from 0 on, or just below, to short of their periods."""
         return x - self.turns(x) * np.where(np.isfinite(self.periods), self.periods, 0)[:, None]
 
     def turns(self, x: Floats) -> Floats:
         """Return the whole periods in the angles of points."""
         with np.errstate(invalid="ignore"):
-            return np.floor(x / self.periods[:, None])
+            return np.floor(x / self.periods[:, None] + _JUST)
 
     def expanded(self, x: Floats) -> tuple[Floats, Floats]:
         """Return the images of points, of the shape (points, n), and the derivatives there.
@@ -236,11 +243,12 @@ class Sampled:
         def gap(t: Floats, at: Any = slice(None)) -> Floats:
             return np.array([np.broadcast_to(g, np.shape(t)) for g in gaps(*x[:, at], t)])
 
-        soon, hit = np.full(x.shape[1], _STEP / 1024), np.full(x.shape[1], np.nan)
+        step, longest = self._steps(flight)
+        soon, hit = np.full(x.shape[1], step / 1024), np.full(x.shape[1], np.nan)
         waiting = np.flatnonzero(np.isfinite(x).all(axis=0) & (gap(soon) > 0).all(axis=0))
         now, count = 0.0, min(max(_FEWEST, _TOGETHER // max(len(waiting), 1)), _MOST)
-        steps = _STEP * np.arange(1, count + 1)
-        while len(waiting) and now < _LONGEST:
+        steps = step * np.arange(1, count + 1)
+        while len(waiting) and now < longest:
             times = np.broadcast_to((now + steps)[:, None], (count, len(waiting)))
             below = gap(times, waiting) <= 0
             stops = below.any(axis=0)
@@ -248,15 +256,23 @@ class Sampled:
             stopped = stops.any(axis=0)
             own = below[0, first, np.arange(len(waiting))]
             hit[waiting[stopped & own]] = now + steps[first[stopped & own]]
-            waiting, now = waiting[~stopped], now + count * _STEP
+            waiting, now = waiting[~stopped], now + count * step
         slope = self._function(flight.formulas, flight.gaps[0].orders[:2])
-        low = np.maximum(hit - _STEP, _STEP / 1024)
+        low = np.maximum(hit - step, step / 1024)
         above, below = (slope(*x, t)[0] for t in (low, hit))
         time = low + (hit - low) * above / (above - below)
         for _ in range(_NEWTON):
             value, rate = slope(*x, time)
             time = time - value / rate
-        return np.where((low <= time + _STEP) & (time <= low + 2 * _STEP), time, np.nan)
+        return np.where((low <= time + step) & (time <= low + 2 * step), time, np.nan)
+
+    def _steps(self, flight: Flight) -> tuple[float, float]:
+        """Return the time between two looks at the gaps, and the longest time."""
+        formulas, time = flight.formulas, len(flight.variables)
+        start = [np.zeros(1)] * (time + 1)
+        speeds = phase_speeds(formulas.tape, formulas.roots[: len(flight.gaps)], time)
+        faster = pace(self._evaluated(formulas, speeds, start) if speeds else ())
+        return _STEP / faster, min(_LONGEST, _PERIODS * _LONGEST / faster)
 
     def _evaluated(self, formulas: Formulas, roots: Sequence[int], x: list[Floats]) -> Floats:
         values = self._function(formulas, tuple(roots))(*x)

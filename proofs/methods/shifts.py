@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
@@ -27,7 +28,7 @@ from proofs.trusted.kernel.maps import Map
 from proofs.trusted.kernel.meter import Exhausted, metered
 from proofs.trusted.numbers import Range
 
-_BITS = 64
+_BITS, _PLACES = 64, 4  # places: of centres, after the first of the radius
 _MOST_BOXES = 128  # of a tree
 _MOST_PAIRS, _MOST_PROOFS, _LONGEST_WORD = 40, 3, 4
 _WORK = 8_000_000  # of all attempts at one iterate
@@ -44,6 +45,14 @@ def add_h_set(file: Derivation, centre: tuple[Fraction, ...], matrix: Rows) -> s
 
 def _short(values: Floats) -> tuple[Fraction, ...]:
     return tuple(Fraction(f"{value:.6g}") for value in values)
+
+
+def _centre(values: Floats, radii: Floats) -> tuple[Fraction, ...]:
+    """Round to as many digits as matter for a set of these radii."""
+    units = (Fraction(10) ** (math.floor(math.log10(radius)) - _PLACES) for radius in radii)
+    return tuple(
+        round(Fraction(float(x)) / unit) * unit for x, unit in zip(values, units, strict=True)
+    )
 
 
 def add_covers(
@@ -132,7 +141,7 @@ def prove_shift(
     Undecided or Unproved.
     """
     names = [
-        add_h_set(file, _short(centre), tuple(map(_short, matrix)))
+        add_h_set(file, _centre(centre, np.abs(matrix).sum(axis=1)), tuple(map(_short, matrix)))
         for centre, matrix in zip(candidates.centres, candidates.matrices, strict=True)
     ]
     relations = [

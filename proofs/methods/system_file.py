@@ -32,7 +32,7 @@ class SystemFile:
         self.time = name(str(file["time"]))
         own = _table(file.get("parameters", {}), "parameters")
         if unknown := sorted({*given} - {*own}):
-            raise GrammarError(f"the system has no parameter {unknown[0]!r}")
+            raise GrammarError(f"no parameter {unknown[0]!r}; there are {', '.join(own) or 'none'}")
         self.parameters: dict[str, Ends] = {**own, **given}
         if file.get("flow", "closed") not in ("closed", "validated"):
             raise GrammarError('flow is "validated", or "closed", which it is without this key')
@@ -187,7 +187,8 @@ def _listed(keys: set[str]) -> str:
 
 def _list(value: Any, what: str) -> list[Any]:
     if not isinstance(value, list):
-        raise GrammarError(f"{what!r} is a list")
+        hint = f": write [[{what}]]" if isinstance(value, Mapping) else ""
+        raise GrammarError(f"{what!r} is a list{hint}")
     return value
 
 

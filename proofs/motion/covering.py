@@ -22,7 +22,7 @@ def bits_needed(flights: FlightBox, horizon: Fraction = HORIZON) -> int:
     middle = sum(flights.phases, Fraction(0)) / 2
     try:
         launch = replace(flights, phases=(middle, middle))
-        return locate(launch, horizon=horizon, floats=False).bits
+        return locate(launch, horizon=horizon).bits
     except Undecided:
         return COVER_BITS
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import partial
 
 from intervals import Undecided
 from proofs.methods.extremes import extremes
@@ -17,7 +16,6 @@ from proofs.motion.digits import phase_after, to_digits
 from proofs.motion.landing import separation, separation_phase
 from proofs.motion.system import System
 from proofs.motion.witness import (
-    FLOATS,
     HORIZON,
     MOST_BITS,
     FlightBox,
@@ -26,14 +24,13 @@ from proofs.motion.witness import (
     locate,
     march,
 )
-from proofs.search.evidence import FAILED, Proved, floats_first
+from proofs.search.evidence import FAILED, Proved
 from proofs.search.steps import Prover
 from proofs.trusted.equations import launch_acceleration
 from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.enclose import enclosed
 from proofs.trusted.kernel.firstzero import NoFirstZero
 from proofs.trusted.numbers import COVER_BITS, Range, hull
-from proofs.trusted.paper.s34_circle.landing import Separation
 
 _NOT_CUT = (
     "the interval seems to contain a grazing phase, or to reach too near to where sticking begins"
@@ -117,9 +114,7 @@ def _sticks(prover: Prover, phases: Range) -> bool | None:
 
 
 def _at_point(prover: Prover, phases: Range) -> Image:
-    floats_first(  # or it says why there is none
-        lambda floats: locate(prover.flights(phases), horizon=prover.horizon, floats=floats)
-    )
+    locate(prover.flights(phases), horizon=prover.horizon)  # or it says why there is none
 
     def prove() -> Proved:
         return prover.claimed(prover.point(phases[0])[0])
@@ -137,7 +132,8 @@ def _after_sticking(prover: Prover, phases: Range, digits: int | None = None) ->
     zero = (Fraction(0), Fraction(0))
 
     def at_precision(bits: int) -> Image:
-        name, separated = prover.seen_or_proved(partial(_separation, prover, bits))
+        witness = separation(prover.system, bits + 20, prover.horizon)
+        name, separated = prover.derive("separation", witness)
         arrival = phase_after(Fraction(0), separated.arrival, bits)
         dwell = _dwell(phases, separated.phase, bits)
         return Image(separated.time, arrival, zero, True, dwell, prove=lambda: prover.claimed(name))
@@ -148,11 +144,6 @@ def _after_sticking(prover: Prover, phases: Range, digits: int | None = None) ->
             yield image.dwell
 
     return to_digits(digits or prover.digits, at_precision, bounds, final=(NoImpact,))
-
-
-def _separation(prover: Prover, bits: int, floats: bool) -> tuple[str, Separation]:
-    witness = separation(prover.system, bits + 20, floats, prover.horizon)
-    return prover.derive("separation", witness)
 
 
 def _dwell(phases: Range, leave: Range, bits: int) -> Range:
@@ -239,15 +230,12 @@ def _windows(flights: FlightBox, horizon: Fraction) -> tuple[Range, ...]:
     def at_precision(bits: int) -> tuple[Range, ...]:
         return march(flights, bits, horizon, finest).proved_windows()
 
-    for bits in (FLOATS, COVER_BITS):
-        try:
-            return at_precision(bits)
-        except (NoImpact, Unsettled):
-            if bits:
-                raise
-        except FAILED:
-            continue
-    return at_precision(bits_needed(flights, horizon))
+    try:
+        return at_precision(COVER_BITS)
+    except (NoImpact, Unsettled):
+        raise
+    except FAILED:
+        return at_precision(bits_needed(flights, horizon))
 
 
 def _leaving(system: System, part: Range) -> Range:

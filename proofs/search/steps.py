@@ -1,8 +1,7 @@
 """Proof steps of the plastic map: each proves something and records its witness.
 
-What f is on intervals is asked of the checker's own map. A witness of a flight is what its lemmas
-say of floats; the checker's rule concludes from it, and where it does not, from what they say of
-the checker's numbers. So neither mpmath nor numpy is needed.
+What f is on intervals is asked of the checker's own map, and when impacts come of its lemmas on
+flights. So neither mpmath nor numpy is needed.
 """
 
 from __future__ import annotations
@@ -10,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, TypeVar
+from typing import Any
 
 from intervals import Undecided
 from intervals.cover import PartsExhausted, cover
@@ -20,7 +19,7 @@ from proofs.methods.moran import moran_root
 from proofs.motion.covering import halves
 from proofs.motion.system import System
 from proofs.motion.witness import FlightBox, NoImpact, name_of
-from proofs.search.evidence import Proved, Steps, floats_first
+from proofs.search.evidence import Proved, Steps
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
@@ -35,7 +34,6 @@ from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.windows import BITS as WINDOW_BITS
 
-_Made = TypeVar("_Made")
 _MOST_PARTS = 400
 _THINNEST, _NO_IMPACT = 2**16, 2**4  # parts of an interval, the other where no impact is seen
 
@@ -77,15 +75,6 @@ class Prover(Derivation):
     def claimed(self, name: str) -> Proved:
         """Return the steps so far, that one claimed."""
         return self.at, self.steps, [name]
-
-    def seen_or_proved(self, make: Callable[[bool], _Made]) -> _Made:
-        """Make steps by what floats see; where the rules deny that, by the checker's numbers."""
-
-        def made(floats: bool) -> _Made:
-            with self.undone():
-                return make(floats)
-
-        return floats_first(made)
 
     def flights(self, phases: Range) -> FlightBox:
         """Return all launches of some phases."""

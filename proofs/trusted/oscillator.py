@@ -27,8 +27,9 @@ from proofs.trusted.equations import (
 )
 from proofs.trusted.kernel.arithmetic import Dual, Enclosure, pi, rational
 from proofs.trusted.kernel.enclose import Box, Circle, Matrix, centre_of, point_box
-from proofs.trusted.kernel.firstzero import Gap
+from proofs.trusted.kernel.firstzero import FirstZero, Gap
 from proofs.trusted.kernel.returns import ReturnMap
+from proofs.trusted.numbers import Range
 from proofs.trusted.parameters import Place
 
 LATEST = Fraction(10**6)
@@ -190,7 +191,6 @@ class Oscillator(PaperMap):
 class PlasticMap(PaperMap):
     """The plastic impact map f: from the phase of an impact to that of the next, on a circle."""
 
-    definition: ClassVar = "f"
     smooth: ClassVar = ", all first impacts from there being transversal"
     of_orbits: ClassVar = (
         "; all its impacts are transversal, and after each the mass leaves the table at once"
@@ -201,12 +201,21 @@ class PlasticMap(PaperMap):
         equations = Equations("f", ("phi",), (0, _PHASE), at.side, at.sides[:2])
         super().__init__(equations, 1, (_LEAVES,), latest=latest)
 
+    @property
+    def definition(self) -> str:
+        """What it is; no function of a file, though one may be called so."""
+        return f"f at {self.at}"
+
     def jacobian(self, x: Sequence[Enclosure]) -> Matrix:
         """Enclose f' by `slope`."""
         impact = self._impact(x)
         eta, nu = impact.launches.parameters
         start = launch(self.formulas.side, eta, nu, x[0])
         return [[slope(start, clock(eta, impact.time), impact.fall)]]
+
+    def window(self, x: Sequence[Enclosure]) -> Range:
+        """Return times low < high: gap > 0 on (0, low], gap_t < 0 between, gap < 0 at the end."""
+        return FirstZero(self._launches(x), self.gaps[0]).window(self.latest)
 
     def bend(self, x: Sequence[Enclosure]) -> Enclosure:
         """Enclose f'': the derivative of the slope along (phi + s, t + (f' - 1) s)."""

@@ -79,9 +79,12 @@ class Oscillators:
         return schema.string(), eta.range(), nu.range(), name.string(), made
 
     def is_about(self, certificate: Reader, report: Report, box: Box) -> bool:
-        """Whether a certificate is about all oscillators of a box, and no function of its own."""
-        is_own = any(each.is_foreign for each in report.conclusions)
-        return report.parameters == self.at(box) and not is_own
+        """Whether a certificate is about all oscillators of a box, and so is all that it says.
+
+        Its steps may be about other ones, and about functions of its own.
+        """
+        at = self.at(box)
+        return report.parameters == at and all(each.place == at for each in report.conclusions)
 
 
 PLASTIC = Oscillators()

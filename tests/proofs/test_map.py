@@ -2,7 +2,9 @@
 
 import json
 import math
+import re
 import time
+import tomllib
 from fractions import Fraction
 from functools import cache
 
@@ -74,7 +76,7 @@ def test_horseshoes_of_the_logistic_map():
 
 def test_parameters_in_a_range():
     found = accepted(Map("r*x*(1 - x)", r=("3.19", "3.21")).orbits(1, box={"x": ("0.2", "1")}))
-    (box,) = found[-1].box
+    (box,) = found[0].box  # in the box where it is looked for; that of 0 comes after
     assert all(box[0] <= 1 - 1 / r <= box[1] for r in (3.19, 3.2, 3.21))
     assert "for all `r` in [3.19, 3.21]" in found[-1].sentence
 
@@ -323,6 +325,16 @@ def test_two_walls_at_once_are_no_impact_with_one():
 
 
 @pytest.mark.slow
+def test_a_wall_that_would_be_hit_soon_after_another():
+    """In a wedge, Y = |X|, from (1, 1) with (-1/2, 1) and gravity 1: its left wall is hit at
+    (1 + sqrt(17))/2 = 2.56, its right one would be at 3.
+    """
+    wedge = System(tomllib.loads(WEDGE))
+    theorem = accepted(wedge.impact(x="1", u="-0.5", w="1"))
+    assert "`x` in [0.28" in theorem.conclusion.sentence and "`t` in [2.56" in str(theorem)
+    assert inside(theorem.conclusion.bounds[3:], (1 + 17**0.5) / 2)
+
+
 def test_orbits_with_two_walls():
     walls = System.example("two-walls")
     (found,) = accepted(walls.orbits(1))
@@ -418,17 +430,58 @@ impact = [{ gap = "y - sin(phi + t)", phi = "phi + t", v = "cos(phi + t)" }]
         (', v = "cos(phi + t)"', "", "no 'v'"),
         ('"phi", "v"]', '"phi", "V"]', "unknown key 'v' of impact"),
         ("y - sin(phi + t)", "t*(y - y)", "first derivatives"),
+        ("impact = [{", "impact = { all = [{", "'impact' is a list: write \\[\\[impact\\]\\]"),
+        ("-g", "-Gamma", "unknown variable 'Gamma'"),
     ],
 )
 def test_a_file_that_is_wrong_is_told_in_a_line(tmp_path, old, new, reason):
     file = tmp_path / "mine.toml"
-    file.write_text(TEXT.replace(old, new, 1) if old else TEXT)
+    text = TEXT.replace(old, new, 1) if old else TEXT
+    file.write_text(text.replace("}]", "}] }") if "all = " in new else text)
     if not reason:
         assert System.read(file).variables == ("phi", "v")
         return
     with pytest.raises(GrammarError, match=reason) as refused:
         System.read(file)
     assert "\n" not in str(refused.value) and str(file) in str(refused.value)
+
+
+WEDGE = """
+variables = ["x", "u", "w"]
+time = "t"
+motion.X = { equation = "X'' = 0", start = ["s*x", "u"] }
+motion.Y = { equation = "Y'' = -1", start = ["x", "w"] }
+impact = [
+  { wall = "right", at = { s = "1" }, gap = "Y - X", x = "Y", u = "Y'", w = "X'" },
+  { wall = "left", at = { s = "-1" }, gap = "Y + X", x = "Y", u = "-Y'", w = "-X'" },
+]
+"""
+FAST = """
+variables = ["phi", "v"]
+time = "t"
+parameters = { a = "0.002", f = "30" }
+periods = { phi = "1" }
+motion.y = { equation = "y'' = -9.81", start = ["a*sin(2*pi*phi)", "v"] }
+impact = [{ gap = "y - a*sin(2*pi*(phi + f*t))", phi = "phi + f*t", v = "-y'" }]
+"""
+
+
+@pytest.mark.parametrize("flow", ["", 'flow = "validated"'])
+def test_floating_point_misses_no_impact_with_a_fast_table(flow):
+    """Of a table with 30 periods in a unit of time: in seconds, say."""
+    from proofs.methods.sampling import Sampled
+
+    system = System(tomllib.loads(flow + FAST))
+    starts = np.array([(p, v) for p in np.arange(0, 1, 0.1) for v in (0.1, 0.4, 0.6)]).T
+    images = Sampled(system._kernel)(starts)
+    for (phi, v), after in zip(starts.T, images.T, strict=True):
+        t = 1e-5 + np.arange(40_000) / 100_000
+        height = 0.002 * np.sin(2 * np.pi * phi) + v * t - 9.81 / 2 * t**2
+        gap = height - 0.002 * np.sin(2 * np.pi * (phi + 30 * t))
+        if gap[0] > 0:
+            assert abs((after[0] - phi) / 30 - t[(gap <= 0).argmax()]) < 2e-5
+        elif not flow:
+            assert np.isnan(after).all()
 
 
 @pytest.mark.parametrize("name", ["bouncing-ball", "wall", "two-walls"])
@@ -489,15 +542,16 @@ def test_the_time_is_over(capsys):
 def test_what_comes_next_is_asked(capsys):
     assert main(["--example", "wall", "--ask", "impact:a=0.3,v=-1", "impact:a=0.3,v=1"]) == 0
     said = capsys.readouterr().out
-    assert "its values are in" in said and "it moves into the wall" in said
+    assert "its values are `a` in" in said and "it moves into the wall" in said
 
 
 @pytest.mark.parametrize(
     ("asked", "told"),
     [
         ("orbits:0", "'orbits:0' is no question: ask as in orbits:2"),
+        ("horseshoe:0", "ask as in horseshoe:2"),
         ("folds:a=1", "ask as in folds:P=A:B,Q=C:D"),
-        ("everything", "horseshoe, image:X=A,Y=B:C, "),
+        ("everything", "horseshoe:2, image:X=A,Y=B:C, "),
         ("impact:x=1", "impact is asked of systems, not of maps"),
     ],
 )
@@ -513,6 +567,7 @@ def test_a_question_that_is_none(asked, told, capsys):
         (["--seconds", "0"], "some seconds are expected, not 0"),
         (["--walls", "floor"], "walls are those of a system"),
         (["--set", "a=2"], "the parameter a is in none of the formulas"),
+        (["--set", "a=2,b=3"], "several are written with spaces between"),
     ],
 )
 def test_what_is_no_use_is_told(arguments, told, capsys):
@@ -527,11 +582,12 @@ def test_branches_of_flows_are_not_followed():
 
 
 def test_all_orbits_and_images_are_asked_of_the_command(capsys):
-    asked = ["--ask", "all:3", "orbits", "image:x=0.3", "--box", "x=-1:2"]
+    asked = ["--ask", "all:3", "orbits", "image:x=0.3", "horseshoe:2", "--box", "x=-1:2"]
     assert main(["--map", "R*x*(1 - x)", "--set", "R=3.9", *asked]) == 0
     said = capsys.readouterr().out
     assert "exactly these: 2 of least period 1, 2 of least period 3." in said
-    assert said.startswith("In what follows `r_` is R.\n") and "0.819" in said
+    assert said.startswith("In what follows `r_` is R.\n") and "values are `x` in [0.81" in said
+    assert said.count("N1 => N2") == 1  # once for both of its consequences
 
 
 @pytest.mark.parametrize(
@@ -557,6 +613,26 @@ def test_effort_is_how_much_is_looked_at():
     few, many = System.example("bouncing-ball"), System.example("bouncing-ball")
     few.effort, many.effort = 1, 3
     assert 0 < len(few.orbits(2)) < len(many.orbits(2))
+
+
+def test_orbits_in_the_box_come_first_and_angles_are_below_a_period():
+    """p + 7 sin x, x + p + 7 sin x: fixed points at x = 0 and pi, p any multiple of 2 pi."""
+    kicked = Map("p + 7*sin(x)", "x + p + 7*sin(x)", periods={"x": "2*pi"})
+    orbits = list(kicked.orbits(1))
+    inside = [max(map(abs, each.box[0])) < 3 for each in orbits]
+    assert inside == [True] * 2 + [False] * (len(orbits) - 2) and len(orbits) > 9
+    assert all(-0.1 < each.box[1][0] < 6.2 for each in orbits)
+    assert "having decreased by 1 period)" in str(kicked.orbits(1, near=[{"p": "-6.3", "x": "0"}]))
+
+
+def test_digits_of_sets_are_those_that_matter():
+    said = str(Map("2*x + y", "x + y", periods={"x": "1", "y": "1"}).horseshoe())
+    assert "the points (0, " in said and not re.search("[0-9.]{12}", said.partition("entropy")[0])
+
+
+def test_a_box_is_a_mapping():
+    with pytest.raises(TypeError, match="a box is as"):
+        Map("3*x").horseshoe(4)
 
 
 def test_many_theorems_are_counted():

@@ -56,7 +56,9 @@ def closed(file: Lemmas, form: NormalForm, names: tuple[str, ...]) -> list[Close
     parameter = next(name for name in names if name not in form.map.state)
     candidates = points(form, names)
     if not candidates:
-        raise Undecided(f"no closed form of {', '.join(names)} is found")
+        raise Undecided(
+            f"no closed form of {', '.join(names)} is found: solve for others, or look near numbers"
+        )
     plain = [each for each in candidates if not _rooted(each)]
     found = [_classified(file, form, each, parameter) for each in plain]
     for each in candidates:

@@ -47,7 +47,7 @@ class Map:
         for line in lines:
             left, equals, right = (part.strip() for part in line.partition("="))
             if not (left and equals and right):
-                raise ValueError(f"not an equation: {line[:60]!r}")
+                raise ValueError(f"an equation such as x1 = 2*x is expected, not {line[:60]!r}")
             sides = canonical(left), canonical(right)
             for side in reversed(sides) if sides[1].isidentifier() else sides:
                 names += read_formulas(Reader(side)).variables

@@ -24,7 +24,7 @@ from proofs.trusted.kernel.enclose import (
     point_box,
     size,
 )
-from proofs.trusted.kernel.maps import Map, counted, read_turns, turned
+from proofs.trusted.kernel.maps import Map, lifted, read_turns, turned
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range, show, show_range
 
@@ -103,7 +103,7 @@ class LocalMap:
         name = f"`{self.map.name}`"
         name = name if self.power == 1 else f"the iterate {name}^{self.power}"
         lifts = [
-            f"`{self.map.variables[circle.place]}` less {counted(turns)}"
+            f"`{self.map.variables[circle.place]}` {lifted(turns)}"
             for circle, turns in zip(self.map.circles, self.turns, strict=True)
             if turns
         ]

@@ -50,7 +50,8 @@ class PeriodicOrbit(Conclusion):
         """Return the statement."""
         map_, place = self.function, box_text(self.box, self.function.variables)
         turned = [
-            f"`{map_.variables[circle.place]}` having increased by {counted(turns)}"
+            f"`{map_.variables[circle.place]}` having {'de' if turns < 0 else 'in'}creased by "
+            f"{counted(turns)}"
             for circle, turns in zip(map_.circles, self.turns, strict=True)
         ]
         orbit = (

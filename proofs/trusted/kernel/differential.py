@@ -25,7 +25,8 @@ from proofs.trusted.kernel.enclose import (
     read_box,
 )
 from proofs.trusted.kernel.laps import SlopeRange, interval_of, meets, shifted, turn_of
-from proofs.trusted.kernel.maps import Bent, Jumping, Map, counted, read_turns, turned
+from proofs.trusted.kernel.maps import Bent, Jumping, Map, lifted, read_turns, turned
+from proofs.trusted.kernel.trees import is_name
 from proofs.trusted.numbers import (
     Range,
     between,
@@ -70,9 +71,9 @@ class Differential(Conclusion):
 
 
 def less(map_: Map, turns: Sequence[int]) -> str:
-    """Say how many periods of its angles images are less, if it has any."""
-    lifts = [f"{counted(n)} of `{v}`" for v, n in zip(angles(map_), turns, strict=True)]
-    return f" (less {', '.join(lifts)})" if lifts else ""
+    """Say how many periods of its angles are taken off images, if it has any."""
+    lifts = [f"{lifted(n)} of `{v}`" for v, n in zip(angles(map_), turns, strict=True)]
+    return f" ({', '.join(lifts)})" if lifts else ""
 
 
 def angles(map_: Map) -> list[str]:
@@ -134,11 +135,23 @@ class Image(Conclusion):
     def sentence(self) -> str:
         """Return the statement."""
         place = box_text(self.box, self.function.variables)
-        values = ", ".join(map(show_range, self.bounds))
         return (
             f"for {self.function.definition}: `{self.function.name}` is defined for {place}, and "
-            f"its values are in {values}."
+            f"its values are {box_text(self.bounds, labels(self.function))}."
         )
+
+
+def labels(map_: Map) -> tuple[str, ...]:
+    """Return names for the values of a map, if it has some.
+
+    They are those of the variables in their places, and after them what is written as a name, as
+    the time is; if all values are written as names of others, as states of a flow, these.
+    """
+    trees, n = [*map(str, getattr(map_, "trees", ()))], len(map_.variables)
+    if not all(map(is_name, trees[n:])) or len(trees) < n:
+        return ()
+    is_other = all(is_name(each) and each not in map_.variables for each in trees)
+    return tuple(trees) if is_other else (*map_.variables, *trees[n:])
 
 
 def image(context: Context, reader: Reader) -> Image:

@@ -76,6 +76,11 @@ class Flight(ReturnMap):
         """The gaps, as they are written."""
         return self.formulas.trees[: len(self.gaps)]
 
+    @property
+    def trees(self) -> tuple[Tree, ...]:
+        """The values, as they are written."""
+        return self.formulas.trees[len(self.gaps) :]
+
     def bend(self, x: Sequence[Enclosure]) -> Enclosure:
         """Enclose the second derivative of the one value F by the one state.
 
@@ -99,7 +104,7 @@ class Flight(ReturnMap):
     def definition(self) -> str:
         """Write F(x, ...) = ... at the first t > 0 where gap = 0, and what the motion is."""
         time, (first, *others) = self.time, (f"`{gap}`" for gap in self.walls)
-        values = ", ".join(map(str, self.formulas.trees[len(self.gaps) :]))
+        values = ", ".join(map(str, self.trees))
         walls = f" and {', '.join(others)} > 0 after launch until it" if others else ""
         motions = "; ".join(motion.said(time) for motion in self.motions)
         return (

@@ -18,6 +18,7 @@ from proofs.trusted.kernel.arithmetic import Enclosure
 from proofs.trusted.kernel.conclusion import Subject
 from proofs.trusted.kernel.enclose import Box, Circle, Differentiable, Matrix, integer, multiply
 from proofs.trusted.kernel.parametric import Parametric, chained, ranges_of
+from proofs.trusted.kernel.trees import Tree
 
 _MOST_MAPS = 100
 _MOST_TURNS = 10**6
@@ -70,6 +71,11 @@ class Composition:
     def size(self) -> int:
         """That of the last map."""
         return self.maps[-1].size
+
+    @property
+    def trees(self) -> tuple[Tree, ...]:
+        """The values, as the last map has them written."""
+        return tuple(getattr(self.maps[-1], "trees", ()))
 
     @property
     def circles(self) -> tuple[Circle, ...]:
@@ -161,8 +167,13 @@ def same_state(one: Map, two: Map) -> bool:
 
 
 def counted(turns: int) -> str:
-    """Write a number of periods."""
-    return f"{turns} period" if turns == 1 else f"{turns} periods"
+    """Write a number of periods, without its sign."""
+    return f"{abs(turns)} period" if abs(turns) == 1 else f"{abs(turns)} periods"
+
+
+def lifted(turns: int) -> str:
+    """Write that so many periods are taken off."""
+    return f"{'plus' if turns < 0 else 'less'} {counted(turns)}"
 
 
 def turned(map_: Map, x: Sequence[Enclosure], turns: Sequence[int]) -> list[Enclosure]:

@@ -166,17 +166,12 @@ class ReturnMap:
         on_tape = [k if k < self.state else k + 1 for k in places]  # the time is between them
         return [self.formulas.derivative(root, k) for k in (*on_tape, self.state)]
 
-    def window(self, x: Sequence[Enclosure]) -> Range:
-        """Return times low < high: gap > 0 on (0, low], gap_t < 0 between, gap < 0 at the end."""
-        return self._searched(self._launches(x))
-
     def possible_values(self, x: Sequence[Enclosure]) -> Iterator[list[Enclosure]]:
         """Enclose the values after each of the times at which the first impact may be."""
         launches = self._launches(x)
-        for window in FirstZero(launches, self.gaps[0]).windows(self.latest):
-            for gap in self.gaps[1:]:
-                FirstZero(launches, gap).require_none(window[1])
-            yield launches.on(self.outcome, Enclosure.of(*window, x[0].bits))
+        for low, high in FirstZero(launches, self.gaps[0]).windows(self.latest):
+            self._require_others(launches, high)
+            yield launches.on(self.outcome, Enclosure.of(low, high, x[0].bits))
 
     def impact(self, x: Sequence[Enclosure]) -> Enclosure:
         """Enclose the time of the impact, for all states in a box: see `FirstZero`."""
@@ -213,10 +208,16 @@ class ReturnMap:
     def _searched(self, launches: Launches) -> Range:
         search = FirstZero(launches, self.gaps[0], self._taken.get(launches.states[0].bits, []))
         window = search.window(self.latest)
-        for gap in self.gaps[1:]:
-            FirstZero(launches, gap).require_none(window[1])
+        if len(self.gaps) > 1:  # other walls may be reached soon after this one
+            window = Impact.sharp(launches, window).time.range
+        self._require_others(launches, window[1])
         self._taken[search.bits] = search.taken
         return window
+
+    def _require_others(self, launches: Launches, until: Fraction) -> None:
+        """Raise Unproved unless the other gaps are proved > 0 up to a time."""
+        for gap in self.gaps[1:]:
+            FirstZero(launches, gap).require_none(until)
 
 
 @dataclass

@@ -394,7 +394,7 @@ def test_coefficients_by_the_projection_method(case):
         (("x1 = x@2",), "in no formula"),
         (("r*x = 0",), "one or two variables"),
         (("x1 = x", "y1 = y", "z1 = z"), "one or two variables"),
-        (("x1",), "not an equation"),
+        (("x1",), "an equation such as"),
     ],
 )
 def test_what_is_no_map(lines, message):

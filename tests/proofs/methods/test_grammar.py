@@ -6,7 +6,7 @@ import random
 import flint
 import pytest
 
-from proofs.methods.grammar import GrammarError, canonical
+from proofs.methods.grammar import GrammarError, as_typed, canonical
 from tests.oracles.formulas import compiled
 
 TYPED = {
@@ -53,6 +53,11 @@ REFUSED = {
     "tan(x, y)": "one number",
     "é + 1": "character 1",
     "x.y": "character 2",
+    "3 \u2212 x": "write -$",
+    "3\u00d7x": "write \\*$",
+    "x\u00b2": "character 2 .* write \\^2",
+    "\u03bb*x": "the letters a to z and the digits alone, as in lambda",
+    "y\u2019": "with a straight quote",
 }
 
 
@@ -97,3 +102,8 @@ def test_the_same_function(seed):
     function, _ = compiled(canonical(typed))
     value = float(function({"x": flint.arb("0.3"), "y": flint.arb("-0.7")}))
     assert value == pytest.approx(eval(python, {}, names), rel=1e-9, abs=1e-9)
+
+
+def test_messages_have_what_was_typed():
+    message = "-e*D(x, t) - D(y_, t, t) + omega_*f(x, t) is not 0, lambda_ is"
+    assert as_typed(message) == "-e*x' - Y'' + Omega*f(x, t) is not 0, lambda is"

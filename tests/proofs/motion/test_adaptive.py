@@ -5,13 +5,15 @@ from fractions import Fraction
 import pytest
 from mpmath import mp, mpf
 
+from proofs.benchmark.peers import FLINT, arithmetic
 from proofs.motion.brackets import impact_time, impact_times
-from proofs.motion.candidate import next_impact
 from proofs.motion.covering import bits_needed
+from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
-from proofs.motion.witness import FLOATS, FlightBox, Unsettled, locate, march
+from proofs.motion.witness import FlightBox, Unsettled, locate, march
 from proofs.search.image import Image, image
 from proofs.stress.grazing import graze
+from proofs.stress.truth import BITS
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.enclose import enclosed
 from proofs.trusted.numbers import COVER_BITS
@@ -122,7 +124,7 @@ def test_both_sides_of_the_separation_phase(exponent):
 @pytest.mark.parametrize("side", [-1, 1])
 @pytest.mark.parametrize("exponent", [5, 17, 30])
 def test_what_is_found_next_to_grazing_is_what_the_checker_finds(exponent, side):
-    eta, nu, phase = graze(2)
+    eta, nu, phase = graze(arithmetic(FLINT, BITS), 2)
     point = phase + side * Fraction(1, 10**exponent)
     found = locate(flights(System(eta, nu), point))
     assert found.transversal and len(found.windows) == 1
@@ -153,13 +155,13 @@ def asked(monkeypatch):
 @pytest.mark.parametrize("single", [True, False])
 def test_unsettled_knows_where_the_gap_is_positive(single, asked):
     # a launch next to grazing, looked at with coarse steps: the minimum is neither > 0 nor < 0
-    eta, nu, phase = graze(2)
+    eta, nu, phase = graze(arithmetic(FLINT, BITS), 2)
     box, start = flights(System(eta, nu), phase), [Fraction(1, 64)]
     about = (
         next_impact(System(eta, nu), float(phase) + 1e-3),
         next_impact(System(eta, nu), float(phase) - 1e-3),
     )
-    horizon = Fraction(min(one[0] for one in about)) + 5
+    horizon = Fraction(min(each.time for each in about)) + 5
     with pytest.raises(Unsettled) as refused:
         march(box, COVER_BITS, horizon, Fraction(1, 8), start, single=single)
     excluded, latest = refused.value.excluded, max(time for _, time in asked)
@@ -170,11 +172,10 @@ def test_unsettled_knows_where_the_gap_is_positive(single, asked):
     assert all(gap_of((time, time), 0).lo > 0 for time in excluded)
 
 
-@pytest.mark.parametrize("bits", [FLOATS, COVER_BITS])
-def test_a_window_is_narrowed_to_the_impacts_of_all_launches(bits):
+def test_a_window_is_narrowed_to_the_impacts_of_all_launches():
     box = flights(PAPER, Fraction("1.11"), Fraction("1.12"))
-    (window,) = march(box, bits).windows
-    low, high = impact_times(box.gap_of(bits and bits + 16), window, 16)
+    (window,) = march(box, COVER_BITS).windows
+    low, high = impact_times(box.gap_of(COVER_BITS + 16), window, 16)
     ends = [flights(PAPER, x) for x in box.phases]
     times = [t for end in ends for t in impact_time(end, locate(end).windows[0], 40)]
     assert window[0] < low < min(times) and max(times) < high < window[1]

@@ -141,8 +141,8 @@ def test_a_parameter_is_not_named_like_a_column(name):
 
 @pytest.mark.slow
 def test_the_command(tmp_path, capsys):
-    ranges = ["--range", "r", "4.9", "5.1", "--range", "c", "0", "0.01"]
-    own = ["--map", "r*x*(1 - x) + c", "--box", "x=0:1", *ranges]
+    ranges = ["--range", "R", "4.9", "5.1", "--range", "c", "0", "0.01"]
+    own = ["--map", "R*x*(1 - x) + c", "--box", "x=0:1", *ranges]
     out = ["--out", str(tmp_path), "--depth", "1"]
     assert main([*own, "--ask", "orbits:2", *out]) == 0
     assert "1 of the area: a periodic orbit" in capsys.readouterr().out

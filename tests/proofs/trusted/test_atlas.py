@@ -303,6 +303,30 @@ def test_a_function_of_a_file_is_not_the_paper_s_map(step, asked):
     refused([json.loads(region.text), cell], "other parameters")
 
 
+def test_what_is_proved_of_another_oscillator_is_not_of_the_cell_s():
+    """A stable orbit of the f that a witness names, in a file about the oscillators of a cell."""
+    own = {"eta": ["1/4", "321/1280"], "nu": ["-157/640", "-125/512"]}
+    ends = ["3120493/500000", "3243709/500000"]
+    slopes = {"function": own, "points": ends, "bits": "64"}
+    cells = [{"slopes": "s", "domain": ends}]
+    steps = {
+        "s": {"rule": "slopes", "witness": slopes},
+        "o": {"rule": "stable-orbit", "witness": {"cells": cells}},
+    }
+    for eta, nu in ((own["eta"], own["nu"]), (["1/4", "321/1280"], ["-157/640", "-124/512"])):
+        sides = {"eta": eta, "nu": [str(F(x)) for x in nu]}
+        region = Region(*(tuple(map(F, side)) for side in sides.values()), "attractor")
+        document = {"schema": DOCUMENT, "parameters": sides, "functions": {}, "steps": steps}
+        document["claims"] = ["o"]
+        (says,) = check(json.dumps(document)).sentences
+        said = {"verdict": "VERIFIED", "kind": "StableOrbit", "says": says}
+        atlas = [json.loads(region.text), {"cell": "0/", **sides, **said, "certificate": document}]
+        if sides == own:
+            assert proved(atlas).shares == {"VERIFIED": 1}
+        else:
+            refused(atlas, "other parameters")
+
+
 def test_another_region_or_none(lines):
     region = Region((F("0.2115"), F("0.2128")), REGION.second, "horseshoe")
     refused([json.loads(region.text), *lines[1:]], "box is another")

@@ -157,3 +157,16 @@ def test_relations_say_about_which_oscillator_they_are():
         assert "eta = 0.2121, nu = -0.2, epsilon = 0.01: N" in conclusion.sentence
     with pytest.raises(Malformed, match="of the same name"):
         graph(one, related(Fraction(3), Fraction("-0.3")))
+
+
+def test_relations_of_the_plastic_map_say_so_too():
+    """f is expanding near its fixed point in [1.1, 1.113]."""
+    sides = {"eta": ["2121/10000"] * 2, "nu": ["-1/5"] * 2}
+    faces = dict.fromkeys(("left", "right", "support"))
+    known = {
+        "n": HSet((Fraction("1.1065"),), ((Fraction("0.0065"),),), ((1 / Fraction("0.0065"),),))
+    }
+    witness = {"function": sides, "power": "1", "source": "n", "target": "n", "sign": "+"}
+    relation = find_rule("covers")(Context(known=known), Reader(witness | faces | {"turns": ["4"]}))
+    for conclusion in (relation, graph(relation)):
+        assert conclusion.sentence.startswith("for f at (eta, nu) = (0.2121, -0.2): N")

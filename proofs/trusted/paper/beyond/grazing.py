@@ -125,7 +125,7 @@ class GrazingCurve(Conclusion):
             f"velocity 0 and relative acceleration > 0 (grazing); there nu = {self._sign}sqrt(p^2 "
             f"+ (q eta tan(pi n eta))^2)/(1 - p), q = {show(ratio(self.epsilon))}. The curve is in "
             f"{len(self.arc.pieces)} slanted boxes, at one eta at most {self._width(P)} wide in p, "
-            f"{self._width(TIME)} in t; at {listed}."
+            f"{self._width(TIME)} in t{listed and f'; at {listed}'}."
         )
 
     def _width(self, place: int) -> str:
@@ -152,14 +152,15 @@ def grazing_curve(_: Context, reader: Reader) -> GrazingCurve:
     """Rule `grazing-curve`: {n, epsilon, pieces, points, times, amplitudes}.
 
     Hypotheses: pieces and points are those of an arc over eta of zeros of `touch`, see `an_arc`,
-    p < 1. For each piece, and all (eta, p) in it: gap' > 0 up to the first of its times (gap'' > 0
-    for epsilon = 0), and all pieces between them are closed, as in `separation`, but two windows;
-    gap'' > 0 in the first, T is inside the second one, and gap' < 0 there. amplitudes: ranges that
-    contain nu at the points. Conclusion: lemma 2, with relative acceleration > 0 at t_G.
+    p < 1 and 0 < t < T. For each piece, and all (eta, p) in it: gap' > 0 up to the first of its
+    times (gap'' > 0 for epsilon = 0), and all pieces between them are closed, as in `separation`,
+    but two windows; gap'' > 0 in the first, T is inside the second one, and gap' < 0 there.
+    amplitudes: ranges that contain nu at the points. Conclusion: lemma 2, with relative
+    acceleration > 0 at t_G.
 
-    Proof. gap = gap' = 0 at t_G, so t_G is in no closed piece, nor in the second window: it is in
-    the first, and the only zero there. The derivative of F by p and t is regular, so t_G is no
-    multiple of 2 pi.
+    Proof. gap = gap' = 0 at t_G, in (0, T), so t_G is in no closed piece, nor in the second window:
+    it is in the first, and the only zero there. The derivative of F by p and t is regular, so t_G
+    is no multiple of 2 pi.
     """
     n_of, epsilon_of, pieces_of, points_of, times_of, nus_of = reader.fields(
         "n", "epsilon", "pieces", "points", "times", "amplitudes"
@@ -182,7 +183,9 @@ def grazing_curve(_: Context, reader: Reader) -> GrazingCurve:
 
 def _touches_once(of: GrazingCurve, piece: Piece, times: Sequence[Fraction]) -> None:
     gap_of = gap_along(of.n, ratio(of.epsilon), of.side, piece)
-    whole = (pi(COVER_BITS) * (2 * of.n)).range
+    whole, touched = (pi(COVER_BITS) * (2 * of.n)).range, piece.hull(ETA)[TIME]
+    if not 0 < touched[0] <= touched[1] < whole[0]:
+        raise Unproved("the touch is not proved to be before the impact")
     windows, _ = first_windows(gap_of, times, 1 if of.epsilon else 2)
     if len(windows) != 2:
         raise Unproved("another touch on the way is not excluded")

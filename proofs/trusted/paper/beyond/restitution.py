@@ -7,11 +7,10 @@ from fractions import Fraction
 
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.kernel.stable import StableCycle
 from proofs.trusted.paper.beyond.attractors import Leaves, first_proved
 from proofs.trusted.paper.s33_restitution.horseshoes import shoes_at
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts
-from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
+from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion, restituting_cycles
 from proofs.trusted.paper.s34_circle.touching import touching_family
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
@@ -72,8 +71,7 @@ def _chaotic(of: Parameters, found: Found) -> Decision:
 
 
 def _stable(of: Parameters, found: Found) -> Decision:
-    kinds = (SuperstableMotion, StableCycle)
-    motions = [motion for kind in kinds for motion in found.all(kind)]
+    motions = [*found.all(SuperstableMotion), *restituting_cycles(found)]
     if motions:
         return decided(Verdict.VERIFIED, *motions)
     none = _rest(of)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -12,7 +12,7 @@ from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.differential import Differential
 from proofs.trusted.kernel.rectangles import Rectangle
 from proofs.trusted.kernel.words import BarredWord
-from proofs.trusted.numbers import Phases, Range, between, floor_text, show
+from proofs.trusted.numbers import TURN, Phases, Range, between, floor_text, show
 from proofs.trusted.paper.s33_restitution.horseshoes import (
     HorseshoeFamily,
     RectangleHorseshoe,
@@ -28,13 +28,17 @@ from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, unde
 
 @dataclass(frozen=True)
 class EdgeImage(Conclusion):
-    """The state (phase, velocity), a corner of V1 or of V2, has its next impact in `image`."""
+    """The state (phase, velocity), a corner of V1 or of V2, has its next impact in `image`.
+
+    That is less so many turns.
+    """
 
     at: Place
     strips: Strips
     phase: Fraction
     velocity: Fraction
     image: Range
+    turns: int
 
     def __post_init__(self) -> None:
         ends = (*self.strips.left, *self.strips.right)
@@ -60,6 +64,21 @@ class EdgeImage(Conclusion):
             return Fraction(0)
         return low - first if self.is_left else last - high
 
+    def fails(self, others: Iterable[EdgeImage]) -> bool:
+        """Whether F does not map its rectangle across both, if it falls short, by the other edge.
+
+        Theorem. So it is if a state of that has its image, less as many turns, less than a turn
+        beyond the outer edges. Proof. This edge is not beyond them in this turn of the circle, nor
+        are both, on different sides, in any other one.
+        """
+        (first, last), edges = self.strips.outer, (self.strips.left, self.strips.right)
+        return any(
+            {self.phase, other.phase} in map(set, edges)
+            and (other.at, other.turns) == (self.at, self.turns)
+            and first - TURN < other.image[0] <= other.image[1] < last + TURN
+            for other in others
+        )
+
     @property
     def brief(self) -> str:
         target = show(self.strips.outer[0 if self.is_left else 1])
@@ -78,10 +97,13 @@ def edge_images(strips: Strips, states: Sequence[Differential]) -> list[EdgeImag
     """Return what is proved about single states at corners of rectangles."""
     images = []
     for each in states:
+        if each.place is None or each.place.epsilon is None:  # a plastic impact has no velocity
+            continue
         (phase, most), (velocity, highest) = each.box
-        if each.place is not None and (phase, velocity) == (most, highest):
+        if (phase, velocity) == (most, highest):
             with suppress(Unproved):
-                images.append(EdgeImage(each.place, strips, phase, velocity, each.values[0]))
+                state = phase, velocity
+                images.append(EdgeImage(each.place, strips, *state, each.values[0], each.turns[0]))
     return images
 
 
@@ -118,7 +140,7 @@ def _full(of: Parameters, found: Found, *, edges_refute: bool = False) -> Decisi
     short = [each for each in edges if each.short > 0]
     corrected = (*golden_means(found.here), *nearby)
     known = {f"image_of_{x.edge}".replace(" ", "_"): x.image for x in edges if x.at == box}
-    if words or (short and edges_refute):
+    if words or (edges_refute and any(each.fails(edges) for each in short)):
         words.sort(key=lambda x: (len(set(x.word)), len(x.word), x.word))  # of the fewest symbols
         reasons = (*words[:1], *short)
         return Decision(Verdict.REFUTED, reasons, corrected, quantities=known)

@@ -168,6 +168,8 @@ def _inner(low: Fraction, high: Fraction) -> str:
     """Write phases of an interval on the line, mod 2 pi, rounded inward."""
     if low >= 0:
         return f"[{ceil_text(low)}, {floor_text(high)}]"
+    if high < 0:
+        return f"[{ceil_text(low + TURN_AT_MOST)}, {floor_text(high + TURN)}]"
     return f"[{ceil_text(low + TURN_AT_MOST)}, 2 pi) and [0, {floor_text(high)}]"
 
 

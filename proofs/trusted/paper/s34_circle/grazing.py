@@ -84,7 +84,7 @@ class Grazing(Conclusion):
     def _width(self) -> str:
         """A power of ten above the width: that is how near phi_g what is said of f holds."""
         low, high = self.phases
-        return f"10^(-{len(str(int(1 / (high - low)))) - 1})"
+        return f"10^(-{len(str((1 / (high - low)).__ceil__() - 1)) - 1})"
 
     @property
     def brief(self) -> str:

@@ -15,7 +15,7 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import closing
 from proofs.trusted.flights import Motion, lifted
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
-from proofs.trusted.kernel.conclusion import Conclusion
+from proofs.trusted.kernel.conclusion import Conclusion, place_of
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.differential import Differential
 from proofs.trusted.kernel.stable import StableCycle
@@ -145,8 +145,10 @@ def superstable_motion(
     boxes = [box]
     for each in impacts:
         at = each.place
-        if at is None or at.sides[:2] != arc.at.sides[:2] or not within(epsilons, at.sides[2]):
+        if at is None or at.epsilon is None or at.sides[:2] != arc.at.sides[:2]:
             raise Unproved("the steps are about different oscillators")
+        if not within(epsilons, at.epsilon):
+            raise Unproved("the steps are about different coefficients of restitution")
         if not all(map(within, boxes[-1], each.box)):
             raise Unproved("a box is not proved to be mapped into the next")
         boxes.append((each.values[0], each.values[1]))
@@ -211,6 +213,11 @@ def prove_superstable_motion(context: Context, reader: Reader) -> SuperstableMot
 # -- the rows --------------------------------------------------------------------------------------
 
 
+def restituting_cycles(found: Found) -> list[StableCycle]:
+    """Return the stable cycles of F: those of the plastic map f are about epsilon = 0 alone."""
+    return [each for each in found.all(StableCycle) if place_of(each).epsilon is not None]
+
+
 def _persists(verdict: Verdict) -> Decide:
     """G7: how impacts are counted is open, as for the plastic orbit (claim G2), but where F has a
     stable 2-periodic orbit. G12: an open set of states is attracted by none, if epsilon > 0.
@@ -218,7 +225,7 @@ def _persists(verdict: Verdict) -> Decide:
 
     def decide(of: Parameters, found: Found) -> Decision:
         proved = found.first(SuperstableMotion)
-        orbits = [each for each in found.all(StableCycle) if len(each.boxes) == 2]
+        orbits = [each for each in restituting_cycles(found) if len(each.boxes) == 2]
         if verdict is Verdict.CONDITIONAL and of.epsilon and orbits:
             return decided(Verdict.VERIFIED, orbits[0], corrected=orbits[:1])
         if proved is not None and of.epsilon:

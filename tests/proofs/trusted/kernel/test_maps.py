@@ -228,7 +228,7 @@ def test_where_a_box_is_taken(bounds, tree, is_true):
     witness = {"function": "F", "box": [["0", "1"]] * 2, "tree": tree, "bounds": bounds}
     if is_true:
         said = proved(PRODUCT, {"i": ("image", witness)}).sentence
-        assert said.endswith("and its values are in [0, 1], [-1, 1].")
+        assert said.endswith("and its values are `x` in [0, 1], `y` in [-1, 1].")
     else:
         with pytest.raises(Unproved, match="not proved on"):
             proved(PRODUCT, {"i": ("image", witness)})

@@ -584,6 +584,13 @@ def about(impact, place):
     return replace(impact, function=oscillator.Oscillator(place.sides))
 
 
+def plastic(impact):
+    """What f, which has no velocities, would do."""
+    at = Place(*impact.place.sides[:2])
+    box, values = impact.box[:1], impact.values[:1]
+    return replace(impact, function=PlasticMap(at), box=box, values=values)
+
+
 def imaged(impact, phase=None, velocity=None):
     values = phase or impact.values[0], velocity or impact.values[1]
     return replace(impact, values=values)
@@ -620,6 +627,7 @@ def imaged(impact, phase=None, velocity=None):
         ),
         (lambda a, b, x, c: (a, b, [x[0], *rebounding(x[1:], 0, 0)], c), "different"),
         (lambda a, b, x, c: (a, b, rebounding(x, 0, 0), c), "different"),
+        (lambda a, b, x, c: (a, b, [plastic(x[0])], c._replace(epsilons=(F(0),) * 2)), "different"),
         (lambda a, b, x, c: (a, b, rebounding(x, "0.095", "0.1"), c), "different"),
         (lambda a, b, x, c: (a, [moved(b[0], "1e-7"), b[1]], x, c), "next"),
     ],

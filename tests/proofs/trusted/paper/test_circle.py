@@ -458,6 +458,22 @@ def followed(arc, rest, *within):
     return Absorption(arc, rest, ranges, rest[-1])
 
 
+@pytest.mark.parametrize(
+    ("low", "high", "said"),
+    [
+        (1, 2, "[1, 2] within 3"),
+        (-1, 2, "[5.283186, 2 pi) and [0, 2] within 3"),
+        (-1, 0, "[5.283186, 2 pi) and [0, 0] within 3"),
+        (-2, -1, "[4.283186, 5.283185] within 3"),  # not up to 2 pi
+        (-1, "-1e-9", "[5.283186, 6.283185] within 3"),
+    ],
+)
+def test_an_interval_of_phases_is_written_from_0_to_2_pi(arc, low, high, said):
+    assert (
+        f"All phases of these intervals do: {said}." in followed(arc, (4,), (low, high, 3)).sentence
+    )
+
+
 def test_most_is_verified_and_almost_every_open_without_free_phases(arc):
     found = [followed(arc, (4, "1/1000"), (-1, 1, 1))]
     strong = find("G10").decide(PAPER, found)

@@ -20,6 +20,7 @@ from proofs.trusted.certificate import Malformed, Reader, texts
 from proofs.trusted.equations import clock, return_map_derivative
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.gaps import first_windows
 from proofs.trusted.paper import BEYOND
 from proofs.trusted.paper.beyond.curves import ROWS, curves, sticking
 from proofs.trusted.paper.beyond.grazing import (
@@ -265,6 +266,21 @@ def test_touches_before_an_earlier_impact_are_refused():
     assert gap_of((F("7.6"), F("7.6")), 0).hi < 0
     witness = {"n": "2", "epsilon": "0", "pieces": [traced.witness], "times": [texts(times)]}
     with pytest.raises(Unproved, match="impact is not proved"):
+        grazing_curve(Context(), Reader({**witness, "points": [], "amplitudes": []}))
+
+
+def test_touches_that_would_come_after_the_impact_are_refused():
+    """For n = 1 near eta = 0.2, epsilon = 1/2, the gap is 0 again at 8.69, if it is followed past
+    2 pi; before, flights touch nothing, though one window is left open.
+    """
+    start, epsilon = [F("0.2"), F("0.276977"), F("8.691")], F(1, 2)
+    (traced,) = follow(touch(1, epsilon), ETA, start, F("0.2001"), step=F(1, 100))
+    gap_of = gap_along(1, ratio(epsilon), 1, traced.piece)
+    times = [F(1, 50), *_closed(gap_of, F(1), F(6)), F(6), F("6.5")]
+    assert first_windows(gap_of, times, 1)[0] == ((F(1, 50), F(1)), (F(6), F("6.5")))
+    assert not any(oracle.distance(1, 0.5, 0.2, 0.277127, t / 50) <= 0 for t in range(1, 314))
+    witness = {"n": "1", "epsilon": "1/2", "pieces": [traced.witness], "times": [texts(times)]}
+    with pytest.raises(Unproved, match="before the impact"):
         grazing_curve(Context(), Reader({**witness, "points": [], "amplitudes": []}))
 
 

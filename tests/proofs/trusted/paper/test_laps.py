@@ -16,6 +16,7 @@ import pytest
 from proofs.trusted.certificate import Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.coverings import EntropyBound, Weighted
+from proofs.trusted.numbers import Phases
 from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s34_circle.cycles import Coding, Cycles, Outer
@@ -118,6 +119,13 @@ def test_h18_needs_each_of_its_grazes_narrowly(roots):
 def firsts(pieces):
     """The pieces of the circle, and the grazes at the ends of the first ones, where f increases."""
     return pieces, tuple(x for x in pieces.arcs if isinstance(x, Grazing) and x.below)
+
+
+@pytest.mark.parametrize(("width", "power"), [("1/1000", 2), ("1/1001", 3), ("999/1000000", 3)])
+def test_a_graze_s_interval_is_narrower_than_the_power_of_ten(width, power):
+    phases, time = Phases(F(1), 1 + F(width)), (F(1), F(2))
+    graze = Grazing(PAPER.place, phases, 1, F(1), time, True, 2, None, time)
+    assert f"which is less than 10^(-{power}) wide" in graze.sentence
 
 
 def test_pieces_between_other_grazes_are_not_told_of(known, roots):

@@ -20,6 +20,7 @@ from proofs.trusted.certificate import Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.stable import StableCycle
 from proofs.trusted.numbers import Phase
+from proofs.trusted.oscillator import Oscillator, PlasticMap
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
@@ -29,6 +30,7 @@ from tests.oracles.judge import oracle
 from tests.proofs.trusted.paper import reference
 from tests.proofs.trusted.paper.steps import add, derive, edited, evidence, exact, known_of
 
+F = Fraction
 ETA, NU = mpf("0.2121"), mpf("-0.2")
 ARC, MOTION, PAIR = "separation-1", "superstable-motion-1", "stable-cycle-1"
 
@@ -53,6 +55,17 @@ def test_the_oracles_see_what_is_concluded():
 
 
 # -- the other orbit -------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("claim", ["X7", "G7"])
+def test_a_stable_cycle_of_the_plastic_map_is_no_motion_with_restitution(claim):
+    """A conclusion about plastic impacts is about the oscillator of any epsilon, too: its f."""
+    box, other = ((F(1), F(2)),), ((F(3), F(4)),)
+    plastic = StableCycle(PlasticMap(PAPER.place), (box, other))
+    at = Place.restituting(PAPER.eta, PAPER.nu, PAPER.epsilon)
+    bouncing = StableCycle(Oscillator(at.sides), (box * 2, other * 2))
+    verdicts = [find(claim).decide(PAPER, [x]).verdict for x in (plastic, bouncing)]
+    assert verdicts == [Verdict.UNDECIDED, Verdict.VERIFIED]
 
 
 @pytest.mark.slow

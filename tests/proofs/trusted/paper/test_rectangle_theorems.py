@@ -14,7 +14,8 @@ from proofs.trusted.kernel.rates import Cone, Rates, rates
 from proofs.trusted.kernel.rectangles import Rectangle
 from proofs.trusted.kernel.words import BarredWord, never_ends
 from proofs.trusted.numbers import Phases
-from proofs.trusted.oscillator import Oscillator
+from proofs.trusted.oscillator import Oscillator, PlasticMap
+from proofs.trusted.paper import find
 from proofs.trusted.paper.s33_restitution.horseshoes import (
     HorseshoeFamily,
     RectangleHorseshoe,
@@ -26,6 +27,7 @@ from proofs.trusted.paper.s33_restitution.rectangles import ALL, BY_LAST, Blocks
 from proofs.trusted.paper.s33_restitution.words import GoldenMean, golden_mean
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.rules import find_rule
+from proofs.trusted.verdicts import Verdict
 
 HERE = Place(*((Fraction(1, 2),) * 2,) * 3)
 GAMMA = (Fraction(-1), Fraction(1))
@@ -247,6 +249,50 @@ PART = printed(("1.27", "1.293"), "1.06", "1.17")
 WORDS = [word(symbols) for symbols in ("0011", "1011", "0111", "1111")]
 FALLS = ((pair_of(-6, -5), STEEP[0][1]), STEEP[1])
 OTHER = replace(EXACT, eta=pair_of("0.2", "0.2"))
+
+
+def test_what_is_proved_of_the_plastic_map_is_no_image_of_an_edge():
+    """In an oscillator with epsilon = 0, where f is meant as well."""
+    of = replace(PAPER, epsilon=Fraction(0), reach=None)
+    phase = of.left[0]
+    known = Differential(PlasticMap(of.place), ((phase,) * 2,), (4,), (pair_of("1.2", "1.3"),), ())
+    assert known.place.holds(of)
+    for claim in ("N1", "N4"):
+        decision = find(claim).decide(of, [known])
+        assert decision.verdict is Verdict.UNDECIDED and "no proof about F" in decision.why
+
+
+LEFT_CORNER = ("1.11", "0", ("1.2", "1.21"), 4)
+
+
+@pytest.mark.parametrize(
+    ("other", "verdict"),
+    [
+        (("1.15", "-0.45", ("1.3", "1.31"), 4), Verdict.REFUTED),
+        (("1.15", "-0.45", ("7.6", "7.603"), 4), Verdict.REFUTED),  # 1.32 + 2 pi = 7.60318...
+        (("1.15", "-0.45", ("7.603", "7.604"), 4), Verdict.UNDECIDED),  # across, a turn later
+        (("1.15", "-0.45", ("-5.174", "-5.1"), 4), Verdict.UNDECIDED),  # across, turned over
+        (("1.15", "-0.45", ("1.3", "1.31"), 5), Verdict.UNDECIDED),
+        (("1.32", "-0.45", ("1.33", "1.34"), 4), Verdict.UNDECIDED),  # an edge of V2
+        (("1.11", "-0.45", ("1.2", "1.21"), 4), Verdict.UNDECIDED),  # of the same edge
+        (None, Verdict.UNDECIDED),
+    ],
+)
+def test_an_edge_that_falls_short_is_not_beyond_in_another_turn(other, verdict):
+    """By one corner of a rectangle the other edge may be any number of turns away."""
+    at = Place.restituting(PAPER.eta, PAPER.nu, PAPER.epsilon)
+    found = [
+        Differential(
+            Oscillator(at.sides),
+            (pair_of(phase, phase), pair_of(gamma, gamma)),
+            (turns,),
+            (pair_of(*image), GAMMA),
+            (),
+        )
+        for phase, gamma, image, turns in filter(None, (LEFT_CORNER, other))
+    ]
+    assert find("N1").decide(PAPER, found).verdict is verdict
+    assert find("N1").decide(PAPER, found[::-1]).verdict is verdict
 
 
 def golden(first=V1, second=V2, part=PART, words=WORDS, names=("a", "b")):
