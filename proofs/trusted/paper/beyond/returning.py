@@ -34,10 +34,7 @@ def _named(cells: Sequence[Range]) -> str:
 
 
 def _earliest(arc: Separation, landing: Lands | None) -> Fraction:
-    """Return a phase after which a mass sticks, up to phi_s, or does so at its next impact.
-
-    It is a short decimal: what is written.
-    """
+    """Return a short decimal: after that a mass sticks, up to phi_s, or at its next impact."""
     if landing is None:
         return Fraction(ceil_text(arc.start[1]))
     if landing.at != arc.at or landing.phases[1] < arc.start[1]:
