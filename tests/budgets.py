@@ -19,18 +19,18 @@ from proofs.trusted.rules import RULES
 ROOT = Path(__file__).parents[1]
 GENERATED = ["docs/api.md", "docs/systems.md"]
 BUDGETS = {
-    "proofs": 55_520,
-    "proofs/trusted": 22_970,
+    "proofs": 55_540,
+    "proofs/trusted": 23_076,
     "proofs/search, proofs/motion": 8_500,
-    "proofs/shell": 1_760,
+    "proofs/shell": 1_775,
     "proofs/benchmark": 2_005,
-    "proofs/stress": 1_300,
-    "tests": 44_620,
+    "proofs/stress": 1_230,
+    "tests": 44_790,
     "words of the docs": 12_000,  # of those that are written by hand, the README with them
     "rules outside the kernel": 24,
     "loose modules": 9,  # of the package proofs
     "tracked files": 921,
-    "headline": 7_310,  # lines of the files that run to check reports/horseshoe.json
+    "headline": 7_355,  # lines of the files that run to check reports/horseshoe.json
     "way of H2": 8_585,  # lines of the files that run to prove H2 and to check it
     "way of H2, files": 53,
 }

@@ -6,31 +6,36 @@ import sys
 from tempfile import TemporaryDirectory
 
 import pytest
-from hypothesis import settings
+from platformdirs import user_cache_path
 
 from tests import once
 from tests.effort import EFFORT, examples
 
 
 def pytest_configure(config):
-    """Try less in the quick part; leave the user's cache alone, and keep bytecode where Python is
-    told to write none.
+    """Try less in the quick part; leave the user's cache alone, but for the theory that Coq has
+    compiled, whose name is a digest of it; keep bytecode where Python is told to write none.
 
     Beside the sources there is none then, as asked; but workers, and the processes that tests
     start, do not compile the same files again and again.
     """
-    EFFORT.quick = config.option.markexpr == "not slow"
-    settings.register_profile("suite", deadline=None, max_examples=examples(100))  # noisy machines
-    settings.load_profile("suite")
     if sys.dont_write_bytecode and config.pluginmanager.hasplugin("cacheprovider"):
         folder = str(config.cache.mkdir("bytecode"))
         sys.dont_write_bytecode, sys.pycache_prefix = False, folder
         os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
         os.environ["PYTHONPYCACHEPREFIX"] = folder
+    from hypothesis import settings  # after that: pytest rewrites its 90 files, 3 s if none is kept
+
+    EFFORT.quick = config.option.markexpr == "not slow"
+    settings.register_profile("suite", deadline=None, max_examples=examples(100))  # noisy machines
+    settings.load_profile("suite")
     if not hasattr(config, "workerinput"):
         folder_of_run = TemporaryDirectory()
         config.add_cleanup(folder_of_run.cleanup)
+        compiled = user_cache_path("impact-proofs") / "coq"
+        compiled.mkdir(parents=True, exist_ok=True)
         os.environ[once.FOLDER] = os.environ["XDG_CACHE_HOME"] = folder_of_run.name
+        user_cache_path("impact-proofs", ensure_exists=True).joinpath("coq").symlink_to(compiled)
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -7,7 +7,6 @@ import tomllib
 from graphlib import TopologicalSorter
 from pathlib import Path
 
-import grimp
 import pytest
 
 ROOT = Path(__file__).parents[1]
@@ -18,6 +17,7 @@ def run(*arguments):
     return subprocess.run(command, capture_output=True, text=True, cwd=ROOT, check=False)
 
 
+@pytest.mark.slow
 def test_import_contracts_hold():
     done = run("-c", "from importlinter.cli import lint_imports_command as c; c()")
     assert done.returncode == 0, done.stdout + done.stderr
@@ -25,6 +25,8 @@ def test_import_contracts_hold():
 
 
 def test_no_module_imports_itself_in_a_circle_not_even_lazily_or_for_types():
+    import grimp
+
     graph = grimp.build_graph("intervals", "proofs", cache_dir=None)
     TopologicalSorter(
         {module: graph.find_modules_directly_imported_by(module) for module in graph.modules}
@@ -123,6 +125,7 @@ def test_another_distribution_s_intervals_is_a_line(module, text, tmp_path):
 
 
 @pytest.mark.skipif(not (ROOT / ".git").exists(), reason="files are counted by git")
+@pytest.mark.slow
 def test_budgets_are_kept():
     done = run("-m", "tests.budgets")
     assert done.returncode == 0, done.stdout + done.stderr

@@ -15,9 +15,9 @@ from intervals import Undecided
 from intervals.rounding import float_down, float_up
 from proofs.benchmark.peers import Range, arithmetic
 from proofs.benchmark.slopes import ETA, MONOTONE, NU, Work, bounds, first_impact
-from proofs.motion import candidate
 from proofs.motion.covering import cover_by
 from proofs.motion.marching import march
+from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
 from proofs.motion.witness import HORIZON, FlightBox, Seen, locate
 from proofs.search.image import Image, image
@@ -96,10 +96,10 @@ def _grid(seen: Seen) -> list[float]:
 
 def _about(phase: float) -> float:
     """Return about the time of the first impact."""
-    found = candidate.next_impact(SYSTEM, phase)
-    if found is None:
+    impact = next_impact(SYSTEM, phase)
+    if impact is None:
         raise Undecided("no impact is seen")
-    return found[0]
+    return impact.time
 
 
 def by_bounds(of: Callable[[Work, int], Range], order: int, boxes: float) -> float:

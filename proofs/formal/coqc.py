@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import fcntl
 import hashlib
 import os
 import re
@@ -117,30 +118,33 @@ def _installed() -> bytes:
 
 
 def theory(modules: list[str], tell: Callable[[str], None]) -> Path:
-    """Return the folder with these modules compiled, in the user's cache: made once.
+    """Return a folder of the user's cache that has these modules compiled, each made once.
 
-    Its name is a digest of the installed Coq and of the modules' texts.
+    Its name is a digest of the installed Coq and of the theory; who comes second waits.
     """
     digest = hashlib.sha256(_installed())
-    for name in modules:
-        digest.update(name.encode() + b"\0" + (THEORY / f"{name}.v").read_bytes() + b"\0")
+    for path in sorted(THEORY.glob("*.v")):
+        digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
     place = Path(user_cache_path("impact-proofs"), "coq", digest.hexdigest()[:40])
-    if place.is_dir():
-        return place
-    place.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(dir=place.parent) as made:
-        new = Path(made, "theory")
-        new.mkdir()
-        copy(THEORY, new, modules, ".v")
+    place.mkdir(parents=True, exist_ok=True)
+    with (place / "lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
         for name in modules:
-            tell(f"coqc {name}.v, theory")
-            run(new, name)
-        try:
-            new.rename(place)
-        except OSError:  # another process was faster
-            if not place.is_dir():
-                raise
+            if not (place / f"{name}.vo").exists():
+                tell(f"coqc {name}.v, theory")
+                _compile(name, place)
     return place
+
+
+def _compile(module: str, place: Path) -> None:
+    """Compile a module after those it requires, which are there; leave nothing half made."""
+    with tempfile.TemporaryDirectory(dir=place) as folder:
+        new = Path(folder)
+        copy(THEORY, new, [module], ".v")
+        copy(place, new, order((new / f"{module}.v").read_text()), ".vo")
+        run(new, module)
+        for ending in (".v", ".vo"):
+            (new / f"{module}{ending}").replace(place / f"{module}{ending}")
 
 
 def copy(source: Path, target: Path, modules: list[str], *endings: str) -> None:

@@ -12,7 +12,7 @@ from functools import cached_property
 from itertools import product
 from typing import NamedTuple
 
-from proofs.motion.candidate import next_impact
+from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
 from proofs.trusted.equations import clock, gap, launch, slope
 from proofs.trusted.numbers import Range
@@ -88,10 +88,10 @@ class Hints(System):
 
     def impact(self, phase: float) -> float:
         """Return the time of the first impact."""
-        found = next_impact(self, phase)
-        if found is None:
+        impact = next_impact(self, phase)
+        if impact is None:
             raise NoHint(f"no first impact after phase {phase:.6f}")
-        time = found[0]
+        time = impact.time
         for _ in range(3):
             time -= self.gap(phase, time) / self.gap(phase, time, 1)
         return time

@@ -3,24 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import suppress
 from fractions import Fraction
 
 from proofs.motion.digits import around
-from proofs.motion.witness import BLIND, FLOATS, MOST_BITS, FlightBox
+from proofs.motion.witness import MOST_BITS, FlightBox
 from proofs.trusted.kernel.arithmetic import Enclosure
 from proofs.trusted.kernel.gaps import Gap
 from proofs.trusted.numbers import COVER_BITS, Range
 
 _ROOM = 40  # bits of precision beyond those of a bracket
-_STEPS, _FLOAT_BITS = 200, 40  # of Newton's method, and what floats are good for
+_STEPS, _COARSE = 200, 40  # of Newton's method, and the bits that its first steps find
 
 
 def impact_time(flights: FlightBox, window: Range, bits: int) -> Range:
     """Bracket the impact of (nearly) one launch in 2^(1 - bits), by Newton's method: gap falls."""
-    time = sum(window, Fraction(0)) / 2
-    with suppress(*BLIND):
-        time = _zero(flights.gap_of(FLOATS), window, time, min(bits, _FLOAT_BITS))
+    middle = sum(window, Fraction(0)) / 2
+    time = _zero(flights.gap_of(COVER_BITS), window, middle, min(bits, _COARSE))
     precision = bits + _ROOM + _loss(flights, time)
     low, high = around(_zero(flights.gap_of(precision), window, time, bits + 8), bits)
     return max(low, window[0]), min(high, window[1])
@@ -73,11 +71,6 @@ def impact_times(gap_of: Gap, window: Range, halvings: int) -> Range:
 def middle(x: Enclosure) -> Fraction:
     """Return about the number that is enclosed."""
     return Fraction(x.lo + x.hi, 2 << x.bits)
-
-
-def halvings_for(window: Range, width: Fraction, spare: int) -> int:
-    """Return how often to halve a window, until what may be gained is small beside a width."""
-    return spare + min(300, ((window[1] - window[0]) / width).__ceil__().bit_length())
 
 
 def last_positive(function: Callable[[int], float], most: int) -> int:

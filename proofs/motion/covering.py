@@ -11,7 +11,6 @@ from intervals.cover import PartsExhausted, cover
 from intervals.errors import Undecided
 from proofs.motion.witness import (
     BLIND,
-    FLOATS,
     HORIZON,
     FlightBox,
     NoImpact,
@@ -45,12 +44,11 @@ def cover_by(
     obstacle: str = "grazing",
     horizon: Fraction = HORIZON,
     limit: int = 200,
-    floats: bool = True,
 ) -> list[Seen]:
     """Cut phases until `accept` takes the first impact of every part, each at its precision.
 
     After two cuts, and every four more, a part that is not taken is asked again at the precision
-    that its middle launch needs, if not in floats; else its width is to blame and it is cut.
+    that its middle launch needs; else its width is to blame and it is cut.
     Undecided names a phase near which nothing helps, `obstacle` being the likely reason; a part
     without impact up to the horizon is cut four times before that is taken for an answer.
     """
@@ -80,7 +78,7 @@ def cover_by(
 
     def split(part: _Part) -> list[_Part]:
         phases = part.flights.phases
-        if part.bits and part.cuts % 4 == 2:
+        if part.cuts % 4 == 2:
             needed = bits_needed(part.flights, horizon)
             if needed > part.bits:
                 return [part._replace(bits=needed)]
@@ -91,7 +89,7 @@ def cover_by(
             for half in halves(phases)
         ]
 
-    first = _Part(flights, 0, FLOATS if floats else COVER_BITS)
+    first = _Part(flights, 0, COVER_BITS)
     try:
         return [covered for _, covered in cover([first], decide, split, limit=limit)]
     except PartsExhausted:
@@ -103,7 +101,7 @@ def bits_needed(flights: FlightBox, horizon: Fraction = HORIZON) -> int:
     middle = sum(flights.phases, Fraction(0)) / 2
     try:
         launch = replace(flights, phases=(middle, middle))
-        return locate(launch, horizon=horizon, floats=False).bits
+        return locate(launch, horizon=horizon).bits
     except Undecided:
         return COVER_BITS
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from intervals import Undecided
-from proofs.motion.candidate import next_impact
+from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
 from proofs.trusted.equations import clock, gap, launch, launch_acceleration, registered_sincos
 from proofs.trusted.numbers import Range
@@ -35,7 +35,7 @@ class InverseBranch:
         impact = next_impact(self.system, self._middle)
         if impact is None:
             raise Undecided("no first impact in floating point")
-        return round((self._middle + impact[0] - impact[1]) / math.tau)
+        return round((impact.lifted - impact.phase) / math.tau)
 
     @property
     def _middle(self) -> float:

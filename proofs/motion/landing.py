@@ -43,9 +43,7 @@ def separation_phase(system: System, bits: int) -> Range:
     return ends
 
 
-def separation(
-    system: System, bits: int, floats: bool = True, horizon: Fraction = HORIZON
-) -> dict[str, object]:
+def separation(system: System, bits: int, horizon: Fraction = HORIZON) -> dict[str, object]:
     """Bracket the end of the sticking arc, and the flight from it, to about 2^-bits.
 
     The window of the impact is the last piece of the times.
@@ -54,7 +52,7 @@ def separation(
         raise Undecided("the mass sticks nowhere: there is no separation phase")
     phase = separation_phase(system, bits)
     at = system.place
-    seen = locate(FlightBox.plastic(at, phase, separating=True), floats=floats, horizon=horizon)
+    seen = locate(FlightBox.plastic(at, phase, separating=True), horizon=horizon)
     time = impact_time(seen.flights, seen.windows[0], bits - 10)
     return {"phase": texts(phase), "times": texts(seen.times), "time": texts(time)}
 

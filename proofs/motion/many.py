@@ -1,4 +1,4 @@
-"""The impact map in floating point at many phases and oscillators at once: candidates only."""
+"""Flights in floating point, many phases and oscillators at once: candidates only."""
 
 from __future__ import annotations
 
@@ -8,19 +8,23 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from proofs.motion.simulate import CLOSE, NO_PUSH
 from proofs.motion.system import System
 from proofs.trusted.equations import Clock, Launch, gap, launch_acceleration, slope
 
 Floats = NDArray[np.float64]
-_MOST_STEPS = 3000
 
 
 class Impacts(NamedTuple):
-    """Times of flight, images phi + t on the line, slopes; NaN where there is no next impact."""
+    """Times of flight, images phi + t on the line, slopes of the plastic map, relative speeds.
+
+    NaN where there is no next impact.
+    """
 
     times: Floats
     images: Floats
     slopes: Floats
+    speeds: Floats
 
 
 def float_launch(system: System, phases: Floats) -> Launch:
@@ -48,30 +52,36 @@ def float_gap(side: int, eta: Any, nu: Any, phases: Any, times: Any) -> Floats:
     return heights
 
 
-def next_impacts(side: int, eta: Any, nu: Any, phases: Any, horizon: float) -> Impacts:
-    """Return about the next impacts, as `candidate.next_impact` finds them; arrays broadcast."""
-    eta, nu, phases = (np.asarray(x, float) for x in np.broadcast_arrays(eta, nu, phases))
-    shape = phases.shape
-    eta, nu, phases = eta.ravel(), nu.ravel(), phases.ravel()
+def separation_phases(eta: Any, nu: Any) -> Floats:
+    """Return about the phases at which a mass that sticks leaves the table, NaN where none is."""
+    with np.errstate(all="ignore"):
+        roots = np.arcsin(eta**2 / (nu * (1 - eta**2)))
+    return np.asarray(np.where(eta < 1, roots, math.pi - roots))
+
+
+def next_impacts(
+    side: int, eta: Any, nu: Any, phases: Any, horizons: Any, *, kicks: Any = 0.0
+) -> Impacts:
+    """Return about the next impacts, as `simulate.next_impact` finds them; arrays broadcast."""
+    given = np.broadcast_arrays(eta, nu, phases, horizons, kicks)
+    eta, nu, phases, horizons, kicks = (np.asarray(x, float).ravel() for x in given)
     start = _launch(side, eta, nu, phases)
-    push = launch_acceleration(start)
-    bend = np.abs(nu) + eta * np.hypot(eta * (1 + start.lift), start.rate)
-    rounding = np.maximum(1e-13, 1e-15 * (2 + 2 * np.abs(nu) + np.abs(start.rate) / eta))
-    times = np.minimum(1.0, push / (2 * (np.abs(nu) + eta * bend)))
-    hits, slopes = np.full(eta.size, math.nan), np.full(eta.size, math.nan)
-    left = np.flatnonzero(push > 0)
-    for _ in range(_MOST_STEPS):
-        if not left.size:
-            break
-        here = Launch(side, eta[left], start.lift[left], start.rate[left])
-        now = _clock(here.eta, times[left])
-        height, speed = gap(here, now), gap(here, now, 1)
-        met = height < rounding[left]
-        if met.any():
-            hits[left[met]] = times[left[met]]
-            with np.errstate(all="ignore"):
-                slopes[left[met]] = slope(here, now)[met]
-        ahead, speed, height = left[~met], speed[~met], height[~met]
-        times[ahead] += (speed + np.sqrt(speed**2 + 2 * bend[ahead] * height)) / bend[ahead]
-        left = ahead[times[ahead] < horizon]
-    return Impacts(*(x.reshape(shape) for x in (hits, phases + hits, slopes)))
+    pull = (math.pi - separation_phases(eta, nu) - phases) % math.tau
+    pull = np.fmin(pull, 3 / eta) * (launch_acceleration(start) >= NO_PUSH)
+    start = start._replace(kick=side * kicks)
+    bend = np.abs(nu) + eta * np.hypot(eta * (1 + start.lift), np.abs(start.rate) + kicks)
+    times = np.maximum(kicks / bend, pull)
+    hits, going = np.full(eta.size, math.nan), np.flatnonzero(times > 0)
+    while (going := going[times[going] < horizons[going]]).size:
+        here = Launch(side, *(np.asarray(x)[going] for x in start[1:]))
+        now = _clock(here.eta, times[going])
+        height, speed, most = gap(here, now), gap(here, now, 1), bend[going]
+        step = (speed + np.sqrt(np.maximum(speed * speed + 2 * most * height, 0.0))) / most
+        hit = (height <= 0) | (step < CLOSE * times[going])
+        hits[going[hit]] = times[going[hit]]
+        times[going] += step
+        going = going[~hit]
+    now = _clock(eta, hits)
+    with np.errstate(all="ignore"):
+        found = hits, phases + hits, slope(start, now), np.maximum(-gap(start, now, 1), 0.0)
+    return Impacts(*(np.reshape(x, given[0].shape) for x in found))

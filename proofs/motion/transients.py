@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 import random
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -15,10 +16,10 @@ from statistics import median
 import numpy as np
 from numpy.typing import NDArray
 
-from proofs.motion.many import Floats, float_clock, float_launch
-from proofs.motion.simulate import CLOSE, NO_PUSH, TURNS, WEAKEST, pull_ends, state_at
+from proofs.motion.many import Floats, float_launch, next_impacts
+from proofs.motion.simulate import NO_PUSH, TURNS, WEAKEST
 from proofs.motion.system import System
-from proofs.trusted.equations import Launch, launch_acceleration
+from proofs.trusted.equations import launch_acceleration
 
 EPSILONS = tuple(Fraction(k, 20) for k in range(8))
 INITIAL_STATES = 500
@@ -38,62 +39,47 @@ class Summary:
     median_turns: float
 
 
-def next_impacts(
-    system: System, phases: Floats, kicks: Floats, horizons: Floats
-) -> tuple[Floats, Floats]:
-    """Do `simulate.next_impact` for many rebounds; times are infinite where there is none."""
-    start = float_launch(system, phases)
-    pushed = launch_acceleration(start) >= NO_PUSH
-    eta, kick = start.eta, system.side * kicks
-    bend = np.hypot(eta * (1 + start.lift), abs(start.rate) + kicks) * eta + abs(float(system.nu))
-    time, speed = kicks / bend, np.zeros(len(phases))
-    pull = np.minimum(pull_ends(system, phases), 3 / eta)
-    time = np.where(pushed, np.maximum(time, pull), time)
-    going = np.arange(len(phases))
-    while going.size:
-        time[going[time[going] >= horizons[going]]] = np.inf
-        going = going[np.isfinite(time[going])]
-        lift, rate, push, most, now = (x[going] for x in (start.lift, start.rate, kick, bend, time))
-        here = Launch(system.side, eta, lift, rate, push)
-        height, rise = state_at(here, float_clock(system, now))
-        step = (rise + np.sqrt(np.maximum(rise * rise + 2 * most * height, 0.0))) / most
-        hit = (height <= 0) | (step < CLOSE * now)
-        speed[going] = np.maximum(-rise, 0.0)
-        time[going] += np.where(hit, 0.0, step)
-        going = going[~hit]
-    return time, speed
-
-
 GOING, RESTS, FLIES, TOUCHES = 0, -1, -2, -3
 
 
 class Motions:
     """Motions from impacts at these phases and speeds before them, and what has become of each.
 
-    kinds: the period of the stable orbit that it has come to, or one of the four numbers above;
-    counts: of the impacts that were followed.
+    epsilons: one, or one for each; until: the time after which none is followed. kinds: the period
+    of the stable orbit that it has come to, or one of the four numbers above; counts: of the
+    impacts that were followed; times: of the last ones.
     """
 
-    def __init__(self, system: System, epsilon: float, states: Sequence[tuple[float, float]]):
-        self._system, self._epsilon = system, epsilon
+    def __init__(
+        self,
+        system: System,
+        epsilons: Floats | float,
+        states: Sequence[tuple[float, float]] | Floats,
+        until: float = math.inf,
+    ):
+        self._system, self._epsilons, self._until = system, epsilons, until
         self.phases, self.speeds = np.array(states, float).T
-        self.kinds, self.counts = (np.full(len(states), GOING) for _ in range(2))
+        self.kinds, self.counts = (np.full(len(self.phases), GOING) for _ in range(2))
+        self.times = np.zeros(len(self.phases))
 
-    def follow(self, impacts: int) -> None:
+    def follow(self, impacts: int = sys.maxsize) -> None:
         """Go on with those that have no end yet."""
+        system = self._system
         for _ in range(impacts):
             going = np.flatnonzero(self.kinds == GOING)
             if not going.size:
                 return
-            phases, kicks = self.phases[going], self._epsilon * self.speeds[going]
-            push = launch_acceleration(float_launch(self._system, phases))
+            phases, kicks = self.phases[going], (self._epsilons * self.speeds)[going]
+            push = launch_acceleration(float_launch(system, phases))
             still = (kicks < WEAKEST) & (push < NO_PUSH)
-            horizons = np.where(still, 0.0, math.tau * TURNS)
-            times, speeds = next_impacts(self._system, phases, kicks, horizons)
-            hit = np.isfinite(times)
+            horizons = np.minimum(math.tau * TURNS, self._until - self.times[going]) * ~still
+            where = system.side, float(system.eta), float(system.nu), phases
+            impact = next_impacts(*where, horizons, kicks=kicks)
+            hit = np.isfinite(impact.times)
             self.kinds[going] = np.where(still, RESTS, np.where(hit, GOING, FLIES))
             on = going[hit]
-            self.phases[on], self.speeds[on] = (phases + times)[hit] % math.tau, speeds[hit]
+            self.phases[on], self.speeds[on] = impact.images[hit] % math.tau, impact.speeds[hit]
+            self.times[on] += impact.times[hit]
             self.counts[on] += 1
 
     def find_cycles(self, longest: int, near: float) -> None:
@@ -114,19 +100,10 @@ def until_rest(
 
     Return which come to rest within so many turns of the table, and after how many; else `turns`.
     """
-    time, kicks = np.zeros(len(phases)), epsilons * speeds
-    rests, going = np.zeros(len(phases), bool), np.arange(len(phases))
-    while going.size:
-        here = (phases[going] + time[going]) % math.tau
-        push = launch_acceleration(float_launch(system, here))
-        still = (kicks[going] < WEAKEST) & (push < NO_PUSH)
-        rests[going[still]] = True
-        going, here = going[~still], here[~still]
-        flights, ends = next_impacts(system, here, kicks[going], math.tau * turns - time[going])
-        time[going] += flights
-        kicks[going] = epsilons[going] * ends
-        going = going[np.isfinite(flights)]
-    return rests, np.where(rests, time / math.tau, turns)
+    motions = Motions(system, epsilons, np.transpose([phases, speeds]), math.tau * turns)
+    motions.follow()
+    rests = motions.kinds == RESTS
+    return rests, np.where(rests, motions.times / math.tau, turns)
 
 
 def transients(

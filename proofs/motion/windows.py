@@ -12,9 +12,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 
+from proofs.motion.simulate import marched
 from proofs.motion.system import System
-from proofs.trusted.equations import clock, gap, launch, launch_acceleration, slope
+from proofs.trusted.equations import launch, launch_acceleration, slope
 
+_LEVEL = 1e-13  # of a gap that counts as 0
 _Seen = tuple[float, int | None]  # a phase, and the window of its first impact
 
 
@@ -66,12 +68,8 @@ class Candidates:
         for turn in self._windows(eta * first - delta, tau):
             middle = first + 2 * math.pi * turn
             time = max(middle - sigma, min(1.0, acceleration / (2 * bend)))
-            while time < middle + sigma:
-                now = clock(eta, time)
-                height, speed = gap(start, now), gap(start, now, 1)
-                if height < 1e-13:
-                    return Candidate(turn, time, slope(start, now))
-                time += (speed + math.sqrt(speed * speed + 2 * bend * height)) / bend
+            if impact := marched(start, bend, time, middle + sigma, level=_LEVEL, close=0.0):
+                return Candidate(turn, impact[0], slope(start, impact[1]))
         return None
 
     def runs(self, low: float, high: float, count: int) -> Iterator[tuple[float, float]]:

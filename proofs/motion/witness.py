@@ -1,7 +1,7 @@
 """Witnesses of first impacts, found with the checker's own lemmas: times and windows.
 
-A gap is asked for by `stays_up` and `falls` of `trusted.flights`, in floats first, and where these
-do not see enough in the checker's numbers. Nothing here is evidence: what a rule concludes is.
+A gap is asked for by `stays_up` and `falls` of `trusted.flights`, in the checker's numbers, of few
+bits at first. Nothing here is evidence: what a rule concludes is.
 """
 
 from __future__ import annotations
@@ -10,10 +10,9 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from intervals.errors import DomainError, Undecided
-from proofs.motion.sketch import Sketch
 from proofs.trusted.equations import (
     Launch,
     clock,
@@ -28,7 +27,6 @@ from proofs.trusted.numbers import COVER_BITS, Range
 from proofs.trusted.parameters import Place
 
 HORIZON = Fraction(1000)
-FLOATS = 0  # bits
 _NOW = Fraction(0)
 _TINIEST = Fraction(1, 2**200)
 _ATTEMPTS = 8
@@ -95,7 +93,7 @@ class FlightBox:
 
     def start(self, bits: int) -> Launch:
         """Return the launch states in numbers of a precision."""
-        eta, nu, phi = (number(values, bits) for values in (*self.sides[:2], self.phases))
+        eta, nu, phi = (Enclosure.of(*each, bits) for each in (*self.sides[:2], self.phases))
         return launch(1 if self.sides[1][0] > 0 else -1, eta, nu, phi)
 
     def gap_of(self, bits: int, start: Launch | None = None) -> Gap:
@@ -103,7 +101,7 @@ class FlightBox:
         begin = start or self.start(bits)
 
         def gap_of(time: Range, order: int) -> Enclosure:
-            value: Enclosure = gap(begin, clock(begin.eta, number(time, bits)), order)
+            value: Enclosure = gap(begin, clock(begin.eta, Enclosure.of(*time, bits)), order)
             return value
 
         return gap_of
@@ -122,11 +120,6 @@ class FlightBox:
             f"at time 2 pi {turns} = {time:.9g} mass and table are where they were at the launch, "
             "and touch without relative velocity if there was no impact before"
         )
-
-
-def number(values: Range, bits: int) -> Any:
-    """Return a range in numbers of a precision: in floats if that is FLOATS."""
-    return Enclosure.of(*values, bits) if bits else Sketch.of(*values)
 
 
 def name_of(phases: Range) -> str:
@@ -258,7 +251,7 @@ def first_step(gap_of: Gap, orders: Sequence[int]) -> Fraction:
     raise Undecided("a phase sticks, or it is not decided whether it does")
 
 
-def locate(flights: FlightBox, *, horizon: Fraction = HORIZON, floats: bool = True) -> Seen:
+def locate(flights: FlightBox, *, horizon: Fraction = HORIZON) -> Seen:
     """Return the transversal first impact of (nearly) one launch, with the least bits it needs.
 
     Close to grazing or to the onset of sticking steps and rounding must be finer: what is excluded
@@ -267,7 +260,7 @@ def locate(flights: FlightBox, *, horizon: Fraction = HORIZON, floats: bool = Tr
     """
     excluded: Sequence[Fraction] = ()
     for attempt in range(_ATTEMPTS):
-        bits = FLOATS if floats and attempt < 2 else COVER_BITS * (attempt + 1)
+        bits = COVER_BITS * (attempt + 1)
         finest = Fraction(1, 2 ** (3 + 10 * attempt))
         try:
             located = march(flights, bits, horizon, finest, excluded, single=True)

@@ -122,7 +122,7 @@ def _seen(box: Place, count: int) -> list[Sets]:
 def _pieces(sign: int, eta: float, nu: float) -> list[Piece]:
     """Return pieces of branches, as far as a grid of phases shows them."""
     phases = math.tau * (np.arange(_GRID) + 0.5) / _GRID
-    _, images, slopes = next_impacts(sign, eta, nu, phases, _FARTHEST)
+    _, images, slopes, _ = next_impacts(sign, eta, nu, phases, _FARTHEST)
     branches: list[list[Seen]] = [[]]
     for phase, image, slope in zip(phases.tolist(), images.tolist(), slopes.tolist(), strict=True):
         point = Seen(phase, FALLS if slope < 0 else RISES, image, slope)  # NaN continues nothing

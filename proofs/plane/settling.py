@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from intervals import Undecided
-from proofs.motion.candidate import next_impact
-from proofs.motion.many import float_gap, next_impacts
+from proofs.motion.many import float_gap, next_impacts, separation_phases
+from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
 from proofs.motion.witness import FlightBox
 from proofs.plane.steps import Steps, bracket, corners, times_for
@@ -78,7 +78,7 @@ def _rehearse(box: Place) -> None:
     seen, (etas, nus), steep = _separations(box), corners(box), 1.0
     phases = (seen + _LATER)[None, :]
     for _ in range(_MOST_IMPACTS + 1):
-        _, images, slopes = next_impacts(box.side, etas, nus, phases, _FARTHEST)
+        _, images, slopes, _ = next_impacts(box.side, etas, nus, phases, _FARTHEST)
         steep *= float(np.abs(slopes).max()) if len(phases) > 1 else 1.0
         low, high = float(images.min()), float(images.max())
         if not high - low < _APART:
@@ -109,7 +109,7 @@ def _sticks_at_centre(box: Place) -> bool:
         if impact is None:
             start = launch(system.side, float(system.eta), float(system.nu), phase)
             return bool(launch_acceleration(start) <= 0)
-        phase = impact[1]
+        phase = impact.phase
     return False
 
 
@@ -211,12 +211,10 @@ def _target(box: Place, low: float, high: float) -> tuple[float | None, float] |
 
 def _separations(box: Place) -> Floats:
     """Return about the phases at which the mass leaves, at the centre and the corners of a box."""
-    eta, nu = map(np.array, corners(box))
-    with np.errstate(all="ignore"):
-        phases = np.arcsin(eta**2 / (nu * (1 - eta**2)))
+    phases = separation_phases(*map(np.array, corners(box))) % math.tau
     if not np.isfinite(phases).all():
         raise Undecided("the mass sticks nowhere, or everywhere, at some of the oscillators")
-    return np.asarray(np.where(eta < 1, phases, math.pi - phases) % math.tau)
+    return phases
 
 
 def _start(box: Place) -> Floats:

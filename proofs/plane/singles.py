@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from intervals import Undecided
-from proofs.motion.witness import FlightBox, number
+from proofs.motion.witness import FlightBox
 from proofs.plane.steps import Steps, times_for
 from proofs.trusted.certificate import texts
 from proofs.trusted.equations import Clock, Launch, gap, launch_acceleration
-from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.paper.beyond.singles import Numbers, Part, launched, parts, ratios, solution
 from proofs.trusted.parameters import Place
 
@@ -153,4 +153,7 @@ class SingleFlights(FlightBox):
     def start(self, bits: int) -> Launch:
         """Return the launch states in numbers of a precision."""
         side, *numbers = self.part.start
-        return Launch(side, *(None if x is None else number(x.range, bits) for x in numbers))
+        return Launch(
+            side,
+            *(None if x is None else Enclosure.of(x.range[0], x.range[1], bits) for x in numbers),
+        )

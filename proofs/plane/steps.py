@@ -10,7 +10,7 @@ from typing import Any
 
 from intervals import Undecided
 from proofs.motion.brackets import impact_times
-from proofs.motion.witness import BLIND, FLOATS, FlightBox, march
+from proofs.motion.witness import BLIND, FlightBox, march
 from proofs.trusted.certificate import SCHEMA, texts
 from proofs.trusted.equations import launch_acceleration
 from proofs.trusted.files import box_to_json, render
@@ -84,10 +84,10 @@ def times_for(flights: FlightBox, latest: float) -> list[Fraction]:
     """
     pushed = launch_acceleration(flights.start(COVER_BITS)).lo >= 0
     flights = replace(flights, separating=flights.separating or pushed)
-    gap_of = flights.gap_of(FLOATS)
+    gap_of = flights.gap_of(COVER_BITS)
     for finest in _FINEST:
         with suppress(Undecided, *BLIND):
-            seen = march(flights, FLOATS, Fraction(latest) + _LATER, finest, single=True)
+            seen = march(flights, COVER_BITS, Fraction(latest) + _LATER, finest, single=True)
             begin, end = seen.windows[0]
             last = impact_times(gap_of, (begin, end), _CUTS)[1]
             for share in _SHARES:

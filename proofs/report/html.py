@@ -24,11 +24,11 @@ from proofs.report.names import (
     DEFINITIONS,
     MEANINGS,
     PAPER_TITLE,
-    quantity_name,
     summary,
     tally,
     verdict_name,
 )
+from proofs.report.page import quantity_name
 from proofs.report.pictures import Picture
 from proofs.report.specification import rule_theorem
 from proofs.report.typeset import html
@@ -79,7 +79,14 @@ def rendered(template: str, **known: Any) -> str:
         lstrip_blocks=True,
     )
     known = {"policy": POLICY, **known}
-    environment.globals.update(known, text_of=_text_of)
+    environment.globals.update(
+        known,
+        text_of=_text_of,
+        MARKS=graph.MARKS,
+        MEANINGS=MEANINGS,
+        DEFINITIONS=DEFINITIONS,
+        verdict_name=verdict_name,
+    )
     environment.filters.update(
         typeset=lambda text: Markup(html(text)), formula=formula, coded=_coded
     )
@@ -142,22 +149,6 @@ class View:
             for step in claim.steps:
                 shown.setdefault((claim.file, step.name), claim.id)
         return shown
-
-    def mark(self, verdict: Verdict) -> str:
-        """Return the sign of a verdict."""
-        return graph.MARKS[verdict]
-
-    def name(self, verdict: Verdict) -> str:
-        """Return a verdict as a word."""
-        return verdict_name(verdict)
-
-    def meaning(self, verdict: Verdict) -> str:
-        """Return what a verdict says of a claim, in a few words."""
-        return MEANINGS[verdict]
-
-    def definition(self, verdict: Verdict) -> str:
-        """Return what a verdict means."""
-        return DEFINITIONS[verdict]
 
     @property
     def lead(self) -> Markup:

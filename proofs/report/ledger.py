@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from proofs.report.dependencies import RESTS
 from proofs.report.findings import Finding, Findings, Statement
 from proofs.report.graph import MARKS, falling
+from proofs.report.markup import table
 from proofs.report.names import DEFINITIONS, PAPER_TITLE, summary, tally, verdict_name
 from proofs.report.pictures import Picture
 from proofs.report.typeset import markdown
@@ -21,7 +22,7 @@ def ledger(findings: Findings, pictures: Sequence[Picture] = ()) -> str:
         summary(findings),
         "The same with proofs, search and formulas is [index.html](index.html), to be opened in a "
         "browser; what is proved of the motion, on one page, is [theorem.md](theorem.md).",
-        _table(
+        table(
             ("verdict", "claims of the paper", "means"),
             [(_verdict(v), str(count), DEFINITIONS[v]) for v, count in tally(findings)],
         ),
@@ -37,7 +38,7 @@ def ledger(findings: Findings, pictures: Sequence[Picture] = ()) -> str:
     for key, title, claims in sections:
         parts.append(f'## <a id="sec-{key}"></a>{key} {title}')
         parts.append(
-            _table(
+            table(
                 ("claim", "verdict", "Coq", "the paper's words"),
                 [
                     (_link(each), _verdict(each.verdict), "✓" if each.coq else "", _words(each))
@@ -143,11 +144,3 @@ def _link(claim: Finding) -> str:
 
 def _links(ids: Iterable[str]) -> str:
     return ", ".join(f"[{each}](#{each})" for each in ids)
-
-
-def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    cells = [
-        [cell.replace("|", "\\|").replace("\\\\|", "\\|") for cell in r] for r in (head, *rows)
-    ]
-    first, *others = (f"| {' | '.join(row)} |" for row in cells)
-    return "\n".join([first, "|" + "---|" * len(head), *others])

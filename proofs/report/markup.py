@@ -2,7 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+
+
+def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """Return a table for a browser; a cell may have its bars escaped already."""
+    cells = [
+        [cell.replace("|", "\\|").replace("\\\\|", "\\|") for cell in row] for row in (head, *rows)
+    ]
+    first, *others = (f"| {' | '.join(row)} |" for row in cells)
+    return "\n".join([first, "|" + "---|" * len(head), *others])
 
 
 def markdown_table(rows: Sequence[Sequence[str]], numbers_from: int = 99) -> list[str]:

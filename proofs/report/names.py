@@ -32,26 +32,11 @@ DEFINITIONS = MappingProxyType(
         "called a proof.",
     }
 )
-_QUANTITIES = MappingProxyType(
-    {
-        **{f"slope_min_I{i}": f"least f' on I{i}" for i in (0, 1)},
-        **{f"slope_max_I{i}": f"greatest f' on I{i}" for i in (0, 1)},
-        **{f"image_low_I{i}": f"f(left end of I{i})" for i in (0, 1)},
-        **{f"image_high_I{i}": f"f(right end of I{i})" for i in (0, 1)},
-        "s0": "s_0",
-        "s0_reciprocal_slopes": "s_0 with the ratios 1/slope",
-    }
-)
 
 
 def verdict_name(verdict: Verdict) -> str:
     """Return a verdict as a word."""
     return verdict.value.capitalize()
-
-
-def quantity_name(name: str) -> str:
-    """Return the name of a number in words."""
-    return _QUANTITIES.get(name, name.replace("_", " "))
 
 
 def summary(findings: Findings) -> str:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
+from proofs.report.markup import table
 from proofs.trusted.numbers import Range
 from proofs.trusted.parameters import PAPER, Parameters
 from proofs.trusted.verdicts import Verdict
@@ -31,20 +33,16 @@ _HOW = (
     "SIMULATED is no proof."
 )
 
-_NAMES = {
-    "slope_min_I0": "min f' on I0",
-    "slope_max_I0": "max f' on I0",
-    "slope_min_I1": "min f' on I1",
-    "slope_max_I1": "max f' on I1",
-    "image_left_I0": "f(left end of I0)",
-    "image_right_I0": "f(right end of I0)",
-    "image_left_I1": "f(left end of I1)",
-    "image_right_I1": "f(right end of I1)",
-    "s0": "s_0",
-    "s0_reciprocal_slopes": "s_0 with the ratios 1 / slope",
-}
-
-
+_QUANTITIES = MappingProxyType(
+    {
+        **{f"slope_min_I{i}": f"least f' on I{i}" for i in (0, 1)},
+        **{f"slope_max_I{i}": f"greatest f' on I{i}" for i in (0, 1)},
+        **{f"image_low_I{i}": f"f(left end of I{i})" for i in (0, 1)},
+        **{f"image_high_I{i}": f"f(right end of I{i})" for i in (0, 1)},
+        "s0": "s_0",
+        "s0_reciprocal_slopes": "s_0 with the ratios 1/slope",
+    }
+)
 _SCOPE = {
     "foundations": "About all parameters, or those named; A1's flights without impact are at {at}.",
     "single": "P1 to P3 are about all parameters, P5 and P6 about those of figure 7; in P4 the "
@@ -77,7 +75,7 @@ def page(group: str, of: Parameters, certificate: dict[str, Any], rows: Sequence
         f"# {_TITLES[group]}",
         f"{scope} {_HOW}",
         "## Verdicts",
-        _table(
+        table(
             ("claim", "verdict", "the paper's words", "statement", "because"),
             [(x.id, x.verdict.value, quoted(x.words), x.statement, x.why) for x in rows],
         ),
@@ -87,15 +85,14 @@ def page(group: str, of: Parameters, certificate: dict[str, Any], rows: Sequence
     return "\n\n".join(sections) + "\n"
 
 
+def quantity_name(name: str) -> str:
+    """Return the name of a number in words."""
+    return _QUANTITIES.get(name, name.replace("_", " "))
+
+
 def quoted(words: str) -> str:
     """Return the paper's words in quotes, or that a claim is not the paper's."""
     return f"'{words}'" if words else "(our own question)"
-
-
-def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    cells = [[cell.replace("|", "\\|") for cell in row] for row in (head, *rows)]
-    first, *others = (f"| {' | '.join(row)} |" for row in cells)
-    return "\n".join([first, "|" + "---|" * len(head), *others])
 
 
 def _theorems(entries: Iterable[dict[str, Any]]) -> list[str]:
@@ -116,12 +113,9 @@ def _ending(certificate: dict[str, Any], name: str) -> list[str]:
     bounds: dict[str, dict[str, str]] = {}
     for claim in certificate["claims"]:
         bounds |= {name: x for name, x in claim["quantities"].items() if name not in bounds}
-    rows = [
-        (_NAMES.get(name, name.replace("_", " ")), ends["lower"], ends["upper"])
-        for name, ends in bounds.items()
-    ]
+    rows = [(quantity_name(name), ends["lower"], ends["upper"]) for name, ends in bounds.items()]
     told = "Each true value lies between the bounds; they are rounded outward."
-    numbers = ["## Numbers", told, _table(("quantity", "at least", "at most"), rows)]
+    numbers = ["## Numbers", told, table(("quantity", "at least", "at most"), rows)]
     return [
         *(numbers if rows else []),
         "## Check it yourself",

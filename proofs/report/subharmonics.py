@@ -12,7 +12,7 @@ from fractions import Fraction
 
 from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
-from proofs.trusted.equations import arrival, clock, launch
+from proofs.trusted.equations import arrival, clock
 
 NUS = tuple(Fraction(text) for text in ("-1/20", "-1/10", "-1/5", "-1/2", "-1", "-2"))
 EPSILON = 0.9
@@ -32,13 +32,11 @@ def displacement(nu: Fraction, periods: int, epsilon: float = EPSILON) -> list[f
     begun, taken, samples = 0.0, 0, []
     while taken < periods * SAMPLES:
         phase = begun % math.tau
-        found = next_impact(system, phase, kick, _HORIZON)
-        if found is None:
+        impact = next_impact(system, phase, _HORIZON, kick)
+        if impact is None:
             raise ValueError(f"no impact within {_HORIZON:g} of phase {phase:g}")
-        time, speed = found
-        start = launch(system.side, 1.0, float(nu), phase)._replace(kick=-kick)
-        while (now := math.tau * taken / SAMPLES) < begun + time:
-            samples.append(float(arrival(start, clock(1.0, now - begun))[0]))
+        while (now := math.tau * taken / SAMPLES) < begun + impact.time:
+            samples.append(float(arrival(impact.start, clock(1.0, now - begun))[0]))
             taken += 1
-        begun, kick = begun + time, epsilon * speed
+        begun, kick = begun + impact.time, epsilon * impact.speed
     return samples[: periods * SAMPLES]

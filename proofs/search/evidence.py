@@ -5,16 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
-from typing import Any, TypeVar
+from typing import Any
 
 from intervals import DomainError, Undecided
-from proofs.motion.witness import Unsettled
 from proofs.trusted.certificate import Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.parameters import Place
 
-_Made = TypeVar("_Made")
 Tell = Callable[[str], None]
 Proof = list[tuple[str, Conclusion]]  # steps, each with what it proves
 Steps = dict[str, dict[str, Any]]
@@ -35,16 +33,6 @@ class Evidence:
     steps: dict[str, dict[str, Any]] = field(default_factory=dict)
     proofs: dict[str, Proof] = field(default_factory=dict)
     notes: dict[str, str] = field(default_factory=dict)
-
-
-def floats_first(make: Callable[[bool], _Made]) -> _Made:
-    """Return what can be made by what floats see; where that fails, by the checker's numbers."""
-    try:
-        return make(True)
-    except FAILED as failure:
-        if isinstance(failure, Unsettled) and failure.hopeless:
-            raise
-    return make(False)
 
 
 def search_each(

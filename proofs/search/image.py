@@ -8,17 +8,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import partial
 
 from intervals import Undecided
 from proofs.methods.extremes import extremes
-from proofs.motion.branch import Branch
 from proofs.motion.covering import bits_needed, cover_by, halves, steps_for
 from proofs.motion.digits import bits_for, phase_after, to_digits
 from proofs.motion.landing import separation, separation_phase
 from proofs.motion.system import System
 from proofs.motion.witness import (
-    FLOATS,
     HORIZON,
     MOST_BITS,
     FlightBox,
@@ -27,13 +24,13 @@ from proofs.motion.witness import (
     locate,
     march,
 )
-from proofs.search.evidence import FAILED, Proved, floats_first
+from proofs.search.evidence import FAILED, Proved
 from proofs.search.steps import Prover
 from proofs.trusted.equations import launch_acceleration
 from proofs.trusted.flights import Motion
+from proofs.trusted.kernel.arithmetic import Enclosure
 from proofs.trusted.kernel.enclose import enclosed
 from proofs.trusted.numbers import COVER_BITS, Range, hull
-from proofs.trusted.paper.s34_circle.landing import Separation
 
 _NOT_CUT = (
     "the interval seems to contain a grazing phase, or to reach too near to where sticking begins"
@@ -117,9 +114,7 @@ def _sticks(prover: Prover, phases: Range) -> bool | None:
 
 
 def _at_point(prover: Prover, phases: Range) -> Image:
-    floats_first(  # or it says why there is none
-        lambda floats: locate(prover.flights(phases), horizon=prover.horizon, floats=floats)
-    )
+    locate(prover.flights(phases), horizon=prover.horizon)  # or it says why there is none
 
     def prove() -> Proved:
         return prover.claimed(prover.point(phases[0])[0])
@@ -137,7 +132,8 @@ def _after_sticking(prover: Prover, phases: Range, digits: int | None = None) ->
     zero = (Fraction(0), Fraction(0))
 
     def at_precision(bits: int) -> Image:
-        name, separated = prover.seen_or_proved(partial(_separation, prover, bits))
+        witness = separation(prover.system, bits + 20, prover.horizon)
+        name, separated = prover.derive("separation", witness)
         arrival = phase_after(Fraction(0), separated.arrival, bits)
         dwell = _dwell(phases, separated.phase, bits)
         return Image(separated.time, arrival, zero, True, dwell, prove=lambda: prover.claimed(name))
@@ -150,11 +146,6 @@ def _after_sticking(prover: Prover, phases: Range, digits: int | None = None) ->
     return to_digits(digits or prover.digits, at_precision, bounds, final=(NoImpact,))
 
 
-def _separation(prover: Prover, bits: int, floats: bool) -> tuple[str, Separation]:
-    witness = separation(prover.system, bits + 20, floats, prover.horizon)
-    return prover.derive("separation", witness)
-
-
 def _dwell(phases: Range, leave: Range, bits: int) -> Range:
     """Enclose the times in [0, 2 pi) from the phases to the next one that is in `leave`."""
     low, high = leave[0] - phases[1], leave[1] - phases[0]
@@ -165,32 +156,34 @@ def _dwell(phases: Range, leave: Range, bits: int) -> Range:
 
 def _over_interval(prover: Prover, phases: Range) -> Image:
     """Enclose the ranges of t, phi + t and f' by `extremes`; derivatives f' - 1, f' and f''."""
-    parts = floats_first(
-        lambda floats: [
-            part.proved()
-            for part in cover_by(prover.flights(phases), horizon=prover.horizon, floats=floats)
-        ]
-    )
+    parts = cover_by(prover.flights(phases), horizon=prover.horizon)
     places = max((1 / part.windows[0][0]).__ceil__().bit_length() - 1 for part in parts)
-    branch = Branch([("", part) for part in parts], bits_for(prover.digits) + places, floats=False)
+    enough = bits_for(prover.digits) + 3 * places  # a flight of time t rises by some t^3
+    bits = max(enough, *(part.bits for part in parts)) + _ROOM
+    f = prover.impact_map
+    ends = [part.flights.phases[0] for part in parts] + [phases[1]]
+
+    def over(low: Fraction, high: Fraction) -> list[Enclosure]:
+        return enclosed(((low, high),), bits)
 
     def time(x: Fraction) -> Range:
-        return branch.flight(x, x)[1]
+        return f.impact(over(x, x)).range
 
     def image_at(x: Fraction) -> Range:
-        low, high = time(x)
-        return x + low, x + high
+        return (f.impact(over(x, x)) + x).range
 
-    def slope_at(x: Fraction) -> Range:
-        return branch.slope(x, x)
+    def slope(low: Fraction, high: Fraction) -> Range:
+        return f.jacobian(over(low, high))[0][0].range
 
     def faster(low: Fraction, high: Fraction) -> Range:
-        least, most = branch.slope(low, high)
-        return least - 1, most - 1
+        return (f.jacobian(over(low, high))[0][0] - 1).range
 
-    slopes = extremes(slope_at, branch.curvature, branch.ends, most=_PIECES)
-    flights = extremes(time, faster, branch.ends, most=_PIECES)
-    images = extremes(image_at, branch.slope, branch.ends, most=_PIECES)
+    def bend(low: Fraction, high: Fraction) -> Range:
+        return f.bend(over(low, high)).range
+
+    slopes = extremes(lambda x: slope(x, x), bend, ends, most=_PIECES)
+    flights = extremes(time, faster, ends, most=_PIECES)
+    images = extremes(image_at, slope, ends, most=_PIECES)
     arrival = (images.minimum[0], images.maximum[1])
 
     def prove() -> Proved:
@@ -198,7 +191,7 @@ def _over_interval(prover: Prover, phases: Range) -> Image:
 
     return Image(
         (flights.minimum[0], flights.maximum[1]),
-        phase_after(Fraction(0), arrival, branch.bits + _ROOM),
+        phase_after(Fraction(0), arrival, bits),
         (slopes.minimum[0], slopes.maximum[1]),
         sticking=False,
         prove=prove,
@@ -232,15 +225,12 @@ def _windows(flights: FlightBox, horizon: Fraction) -> tuple[Range, ...]:
     def at_precision(bits: int) -> tuple[Range, ...]:
         return march(flights, bits, horizon, finest).proved().windows
 
-    for bits in (FLOATS, COVER_BITS):
-        try:
-            return at_precision(bits)
-        except (NoImpact, Unsettled):
-            if bits:
-                raise
-        except FAILED:
-            continue
-    return at_precision(bits_needed(flights, horizon))
+    try:
+        return at_precision(COVER_BITS)
+    except (NoImpact, Unsettled):
+        raise
+    except FAILED:
+        return at_precision(bits_needed(flights, horizon))
 
 
 def _leaving(system: System, part: Range) -> Range:

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations, pairwise
 
-from proofs.motion.candidate import next_impact
+from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
 from proofs.search.budget import reach
 from proofs.search.portrait import Check
@@ -63,8 +63,8 @@ def _intervals(system: System) -> Iterator[tuple[float, float]]:
         for _ in range(_SETTLED):
             impact = next_impact(system, phase, reach(system.eta)) if phase is not None else None
             if impact is not None:
-                late.append(impact[1])
-            phase = None if impact is None else impact[1]
+                late.append(impact.phase)
+            phase = None if impact is None else impact.phase
     late = late[-1 :: -max(1, len(late) // (2 * _STARTS))]
     for width in _WIDTHS:
         for phase in late:
@@ -142,7 +142,7 @@ def _preimage(system: System, piece: Piece, image: float) -> float | None:
         impact = next_impact(system, middle, reach(system.eta))
         if impact is None:
             return None
-        low, high = (middle, high) if (middle + impact[0] < image) == rises else (low, middle)
+        low, high = (middle, high) if (impact.lifted < image) == rises else (low, middle)
     return low
 
 

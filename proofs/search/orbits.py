@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from proofs.motion.candidate import next_impact
+from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
 from proofs.trusted.equations import launch, launch_acceleration
 
@@ -38,10 +38,11 @@ class Seen(NamedTuple):
 def look(system: System, phase: float, farthest: float) -> Seen:
     """Return what becomes of one launch, flights being followed so far."""
     impact = next_impact(system, phase, farthest)
-    if impact is not None and abs(impact[0] - math.tau * system.eta.denominator) < _TOUCH:
+    if impact is not None and abs(impact.time - math.tau * system.eta.denominator) < _TOUCH:
         return Seen(phase, TOUCHES)
     if impact is not None:
-        return Seen(phase, RISES if impact[2] > 0 else FALLS, phase + impact[0], impact[2])
+        slope = impact.slope
+        return Seen(phase, RISES if slope > 0 else FALLS, impact.lifted, slope)
     start = launch(system.side, float(system.eta), float(system.nu), phase)
     return Seen(phase, STICKS if launch_acceleration(start) <= 0 else FLIES)
 

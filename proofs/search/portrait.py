@@ -12,8 +12,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from proofs.motion.simulate import TURNS, separation_phase
-from proofs.motion.simulate import next_impact as rebound
+from proofs.motion.simulate import TURNS, next_impact, separation_phase
 from proofs.motion.system import System
 from proofs.search.orbits import (
     FALLS,
@@ -167,8 +166,8 @@ def _after_rest(system: System, farthest: float, end: Callable[[float, float], s
     if system.sticking_arc != "some":
         return _RESTS
     phase = separation_phase(system) + _AFTER
-    landing = rebound(system, phase, 0.0, farthest)
-    name = FLIES if landing is None else end((phase + landing[0]) % math.tau, landing[1])
+    landing = next_impact(system, phase, farthest)
+    name = FLIES if landing is None else end(landing.phase, landing.speed)
     return _LEAVES if name == STICKS else _NAMES.get(name, name)
 
 

@@ -11,7 +11,7 @@ from fractions import Fraction
 from functools import cache
 from itertools import product
 
-from proofs.motion.candidate import next_impact
+from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
 from proofs.trusted.numbers import Range
 from proofs.trusted.parameters import Parameters
@@ -55,7 +55,7 @@ def nearest_sets(of: Parameters) -> Iterator[Parameters]:
     @cache
     def image(end: Fraction) -> tuple[float, float] | None:
         impact = next_impact(system, float(end))
-        return None if impact is None else impact[1:]
+        return None if impact is None else (impact.phase, impact.slope)
 
     for moved in moved_ends((*of.left, *of.right)):
         if _covers(moved, signs, image):

@@ -14,7 +14,7 @@ from functools import partial
 from itertools import islice
 from typing import TypeVar
 
-from proofs.motion.candidate import next_impact
+from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
 from proofs.motion.witness import HORIZON
 from proofs.search.evidence import FAILED, Evidence, Proof, Tell
@@ -118,7 +118,7 @@ class _Run:
             candidate = next_impact(self.prover.system, float(phase))
             if candidate is None:
                 continue
-            _, image, slope = (Fraction(value) for value in candidate)
+            image, slope = Fraction(candidate.phase), Fraction(candidate.slope)
             try:
                 guess = Impact(of.place, phase, (slope, slope), Phase(image, image))
             except Unproved:  # next to phase 0

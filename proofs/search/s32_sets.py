@@ -12,7 +12,7 @@ from fractions import Fraction
 from functools import cache
 from itertools import islice
 
-from proofs.motion.candidate import next_impact
+from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
 from proofs.search.evidence import FAILED, Evidence, Proof
 from proofs.search.repair import nearest_sets
@@ -69,7 +69,7 @@ def _nearby(sets: Parameters, start: Fraction) -> Iterator[Fraction]:
         impact = next_impact(system, float(phase))
         if impact is None:
             return
-        phase = round(Fraction(impact[1]) / _NEARBY) * _NEARBY
+        phase = round(Fraction(impact.phase) / _NEARBY) * _NEARBY
         reach = _NEARBY + round(reach * 2 * sets.slopes[1] / _NEARBY) * _NEARBY
 
 

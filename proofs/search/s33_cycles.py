@@ -111,7 +111,7 @@ def seen_from(at: Place, state: State, period: int) -> tuple[State, float]:
             if after is None:
                 raise Undecided("the orbit is lost")
             product = np.array(after.derivative) @ product
-            here = after.phase % math.tau, after.velocity
+            here = after.phase, after.velocity
         away = np.subtract(here, (phase, gamma))
         step = np.linalg.solve(np.eye(2) - product, away)
         phase, gamma = phase + float(step[0]), gamma + float(step[1])

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, replace
 from itertools import pairwise, product
 
-from proofs.motion.simulate import Landing, landing
+from proofs.motion.simulate import Impact, landing
 from proofs.motion.system import System
 
 _SWEEPS = 24
@@ -135,9 +135,9 @@ def _edges(system: System, now: Moving, index: int, margin: float) -> Pair | Non
     return edges[0], edges[1]
 
 
-def _near(image: Landing, phase: float) -> float:
+def _near(image: Impact, phase: float) -> float:
     """Return the phase of an image on the line, next to another."""
-    return image.phase + math.tau * round((phase - image.phase) / math.tau)
+    return image.lifted + math.tau * round((phase - image.lifted) / math.tau)
 
 
 def _heights(system: System, now: Moving) -> Moving | None:

@@ -26,7 +26,7 @@ def state_after(
 ) -> tuple[float, float] | None:
     """Return about F(phi, gamma), its phase in [0, 2 pi); None if it sticks or flies on."""
     after = landing(System(Fraction(eta), Fraction(nu)), epsilon, *state)
-    return None if after is None else (after.phase % math.tau, after.velocity)
+    return None if after is None else (after.phase, after.velocity)
 
 
 def image_phases(at: Place, velocities: Range) -> Images:

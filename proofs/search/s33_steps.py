@@ -265,7 +265,7 @@ def turns_of(at: Place, box: Box) -> str:
     """Return about how many turns the next phases have passed, seen from the middle of a box."""
     eta, nu, epsilon, phase, gamma = (float(low + high) / 2 for low, high in (*at.sides, *box))
     after = landing(System(Fraction(eta), Fraction(nu)), epsilon, phase, gamma)
-    return str(math.floor((after.phase if after else phase) / math.tau))
+    return str(math.floor((after.lifted if after else phase) / math.tau))
 
 
 def _is_smooth(at: Place, box: Box) -> bool:

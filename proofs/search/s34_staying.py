@@ -10,8 +10,8 @@ from itertools import pairwise
 
 from intervals import Undecided
 from proofs.motion.brackets import middle
-from proofs.motion.candidate import next_impact
 from proofs.motion.digits import phase_after
+from proofs.motion.simulate import Impact, next_impact
 from proofs.search.evidence import FAILED, Proof
 from proofs.search.steps import Prover
 from proofs.trusted.kernel.enclose import enclosed
@@ -40,14 +40,14 @@ class Sketcher:
     """Finds pieces by the map in floating point: candidates, never evidence."""
 
     prover: Prover
-    _known: dict[Fraction, tuple[float, float, float] | None] = field(default_factory=dict)
+    _impacts: dict[Fraction, Impact | None] = field(default_factory=dict)
 
     def image(self, phase: Fraction) -> float | None:
         """Return about f(phase)."""
-        if phase not in self._known:
-            self._known[phase] = next_impact(self.prover.system, float(phase))
-        impact = self._known[phase]
-        return None if impact is None else impact[1]
+        if phase not in self._impacts:
+            self._impacts[phase] = next_impact(self.prover.system, float(phase))
+        impact = self._impacts[phase]
+        return None if impact is None else impact.phase
 
     def sketch(self, interval: Range, unit: Fraction) -> Sketch:
         """Return the runs of multiples of `unit` that f leaves in the interval, one wider."""
@@ -70,8 +70,8 @@ class Sketcher:
         """Whether f jumps between two neighbouring phases: its flight times are far apart."""
         if not 0 < i < len(grid):
             return True
-        left, right = (self._known.get(x) for x in (grid[i - 1], grid[i]))
-        return left is None or right is None or abs(left[0] - right[0]) > 1
+        left, right = (self._impacts.get(x) for x in (grid[i - 1], grid[i]))
+        return left is None or right is None or abs(left.time - right.time) > 1
 
     def _wider(self, grid: Sequence[Fraction], i: int, way: int) -> Fraction:
         """Return the next phase on, if it is on the same branch."""

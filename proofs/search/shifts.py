@@ -12,8 +12,8 @@ from fractions import Fraction
 from itertools import combinations, groupby, islice, pairwise
 
 from intervals import Undecided
-from proofs.motion.candidate import next_impact
 from proofs.motion.covering import cover_by
+from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
 from proofs.motion.witness import FlightBox
 from proofs.search.budget import reach
@@ -173,14 +173,14 @@ def _statement(of: Parameters, system: System, sets: tuple[Range, Range]) -> Par
     for domain in sets:
         seen = [next_impact(system, phase) for phase in _evenly(domain, _SAMPLES)]
         impacts = [each for each in seen if each is not None]
-        signs.append(1 if impacts and impacts[0][2] > 0 else -1)
-        ends = [impacts[k][1] for k in (0, -1)][:: signs[-1]] if impacts else [high, low]
-        steep = [each[2] * signs[-1] for each in impacts]
+        signs.append(1 if impacts and impacts[0].slope > 0 else -1)
+        ends = [impacts[k].phase for k in (0, -1)][:: signs[-1]] if impacts else [high, low]
+        steep = [each.slope * signs[-1] for each in impacts]
         if len(impacts) < len(seen) or min(steep) <= 1 or ends[0] > low or ends[1] < high:
             return None
         slopes += steep
     between = (next_impact(system, phase) for phase in _evenly((sets[0][1], sets[1][0]), _BETWEEN))
-    if any(each is not None and low <= each[1] <= high for each in between):
+    if any(each is not None and low <= each.phase <= high for each in between):
         return None
     return replace(
         of,

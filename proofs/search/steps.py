@@ -1,16 +1,15 @@
 """Proof steps of the plastic map: each proves something and records its witness.
 
-What f is on intervals is asked of the checker's own map. A witness of a flight is what its lemmas
-say of floats; the checker's rule concludes from it, and where it does not, from what they say of
-the checker's numbers. So neither mpmath nor numpy is needed.
+What f is on intervals is asked of the checker's own map, and when impacts come of its lemmas on
+flights. So neither mpmath nor numpy is needed.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
-from functools import cached_property, partial
-from typing import Any, TypeVar
+from functools import cached_property
+from typing import Any
 
 from proofs.methods.derivation import Derivation, concluded
 from proofs.methods.extremes import extremes
@@ -18,7 +17,7 @@ from proofs.methods.moran import moran_root
 from proofs.motion.covering import cover_by
 from proofs.motion.system import System
 from proofs.motion.witness import FlightBox, Seen
-from proofs.search.evidence import Proved, Steps, floats_first
+from proofs.search.evidence import Proved, Steps
 from proofs.trusted.certificate import texts
 from proofs.trusted.flights import FirstImpact
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -32,8 +31,6 @@ from proofs.trusted.numbers import TURN, Range, show_range
 from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.slopes import Avoids, comes_to
-
-_Made = TypeVar("_Made")
 
 
 class Prover(Derivation):
@@ -74,15 +71,6 @@ class Prover(Derivation):
         """Return the steps so far, that one claimed."""
         return self.at, self.steps, [name]
 
-    def seen_or_proved(self, make: Callable[[bool], _Made]) -> _Made:
-        """Make steps by what floats see; where the rules deny that, by the checker's numbers."""
-
-        def made(floats: bool) -> _Made:
-            with self.undone():
-                return make(floats)
-
-        return floats_first(made)
-
     def add_impact(self, seen: Seen) -> tuple[str, FirstImpact]:
         """Prove a first impact (rule first-impact)."""
         phases, times = texts(seen.flights.phases), texts(seen.times)
@@ -94,10 +82,7 @@ class Prover(Derivation):
 
     def impacts(self, phases: Range) -> list[tuple[str, FirstImpact]]:
         """Prove transversal first impacts on parts of an interval, in order."""
-        return self.seen_or_proved(partial(self._impacts, phases))
-
-    def _impacts(self, phases: Range, floats: bool) -> list[tuple[str, FirstImpact]]:
-        parts = cover_by(self.flights(phases), horizon=self.horizon, floats=floats)
+        parts = cover_by(self.flights(phases), horizon=self.horizon)
         return [self.add_impact(part) for part in parts]
 
     def slopes(self, points: list[Fraction]) -> tuple[str, SlopeRange]:
@@ -115,9 +100,7 @@ class Prover(Derivation):
 
     def avoids(self, phases: Range, target: Range) -> tuple[str, Avoids]:
         """Prove that no phase of `phases` has its first impact in `target` (rule avoids)."""
-        return self.seen_or_proved(partial(self._avoids, phases, target))
 
-    def _avoids(self, phases: Range, target: Range, floats: bool) -> tuple[str, Avoids]:
         def accept(seen: Seen) -> bool:
             return not any(
                 comes_to(self.at, seen.flights.phases, window, target) for window in seen.windows
@@ -129,7 +112,6 @@ class Prover(Derivation):
             obstacle=f"an impact in {show_range(target)} is possible",
             horizon=self.horizon,
             limit=400,
-            floats=floats,
         )
         flights = [self.add_impact(part)[0] for part in parts]
         return self.derive("avoids", {"flights": flights, "target": texts(target)})

@@ -1,10 +1,12 @@
-"""Groups of claims: what a prover found, decided, and written as a certificate and a page.
+"""Groups of claims: what a prover proved, decided, and written as a certificate and a page.
 
 A group has a prover in `proofs.search`, and a command, a row of `proofs.commands.groups`.
 """
 
 from __future__ import annotations
 
+import json
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from importlib import import_module
@@ -75,13 +77,15 @@ def row_of(claim: str) -> Row:
     return row
 
 
-def decide(claim: str, of: Parameters, found: Evidence, digits: int) -> tuple[Line, dict[str, Any]]:
+def decide(
+    claim: str, of: Parameters, evidence: Evidence, digits: int
+) -> tuple[Line, dict[str, Any]]:
     """Decide a claim by what was proved; return its line and its certificate entry."""
-    row, proof = row_of(claim), found.proofs.get(claim, [])
+    row, proof = row_of(claim), evidence.proofs.get(claim, [])
     decision = row.decide(of, [conclusion for _, conclusion in proof])
     quantities = decision.quantities.items()
     noted = decision.verdict in (Verdict.UNDECIDED, Verdict.SIMULATED)
-    note = found.notes.get(claim) if noted else None
+    note = evidence.notes.get(claim) if noted else None
     why, theorem = decision.why, decision.theorem
     truth = theorem or (decision.witness if row.own else None)
     said = (row.words, row.says(of), "; ".join(filter(None, (why, note))), truth)
@@ -135,17 +139,34 @@ def produce(
     steps: dict[str, dict[str, Any]] = {}
     for group, claims in groups.items():
         prover = import_module(f"proofs.search.{PROVERS[group]}")
-        found: Evidence = prover.prove(of, claims, digits=digits, tell=tell, **options)
-        options = {}
-        steps |= found.steps
+        evidence = prover.prove(of, claims, digits=digits, tell=tell, **options)
+        evidence, options = _apart(evidence, steps, group) if steps else evidence, {}
+        steps |= evidence.steps
         for claim in claims:
-            line, entry = decide(claim, of, found, digits)
+            line, entry = decide(claim, of, evidence, digits)
             lines.append(line)
             entries.append(entry)
     proved = certificate(of, steps, entries)
     first = next(iter(groups))
     file = first if first in FILES else next(name for name, ids in FILES.items() if first in ids)
     return Made(lines, render(proved), page(file, of, proved, lines))
+
+
+def _apart(evidence: Evidence, earlier: Mapping[str, dict[str, Any]], group: str) -> Evidence:
+    """Return evidence with names of its own for steps whose names others have already."""
+    names: dict[str, str] = {}
+    steps: dict[str, dict[str, Any]] = {}
+    for name, step in evidence.steps.items():
+        text = re.sub(r'(?<=")[^"]+(?=")', lambda x: names.get(x[0], x[0]), json.dumps(step))
+        own = json.loads(text)
+        if earlier.get(name, own) != own:
+            names[name] = f"{group}-{name}"
+        steps[names.get(name, name)] = own
+    proofs = {
+        claim: [(names.get(name, name), conclusion) for name, conclusion in proof]
+        for claim, proof in evidence.proofs.items()
+    }
+    return Evidence(steps, proofs, evidence.notes)
 
 
 def wanted(

@@ -56,7 +56,7 @@ class _Prescribed(Case):
 
 def _answer(found: Interval | IntervalArray) -> Answer:
     ends = (found.inf, found.sup) if isinstance(found, Interval) else (found.inf[1], found.sup[1])
-    return Answer((({"value": (Fraction(ends[0]), Fraction(ends[1]))},),))
+    return {"value": (Fraction(ends[0]), Fraction(ends[1]))}
 
 
 def rounded_down(value: Fraction, bits: int, binary64: bool = True) -> Fraction:
@@ -198,8 +198,6 @@ def _called(kernel: Arithmetic, function: str, x: Fraction) -> Any:
 
 def _turns(kernel: Arithmetic, x: Fraction, shift: Fraction) -> int:
     """Return the largest k with (k + shift) pi <= x."""
-    if x == 0:
-        return 0 if shift == 0 else -1
     low, high = kernel.ends(kernel.point(x) / kernel.pi() - kernel.point(shift))
     if low // 1 != high // 1:
         raise ArithmeticError("it is not known on which side of a turning point it is")

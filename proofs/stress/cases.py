@@ -10,6 +10,7 @@ from random import Random
 from proofs.benchmark.peers import Arithmetic, Range
 
 Ranges = dict[str, Range]
+Answer = Ranges | list[Ranges]  # bounds by name; or of possible images, one of them true
 System = tuple[Fraction, Fraction]
 ETA, NU = Fraction("0.2121"), Fraction("-0.2")
 
@@ -20,17 +21,6 @@ class Truth:
 
     known: Ranges
     reason: str = ""
-
-
-@dataclass(frozen=True)
-class Answer:
-    """What the library said of each sample: an enclosure, or several of which one is true.
-
-    possible: whether it said only that these are the possible images.
-    """
-
-    samples: tuple[tuple[Ranges, ...], ...]
-    possible: bool = False
 
 
 @dataclass(frozen=True)

@@ -30,11 +30,6 @@ def _around(draw: Draw, of: System, phase: Fraction, room: Fraction) -> ImageCas
     return ImageCase(draw.family, *of, phase, phase + width)
 
 
-def _graze(draw: Draw) -> tuple[System, Fraction]:
-    eta, nu, phase = graze(draw.randrange(100))
-    return (eta, nu), phase
-
-
 def _short(draw: Draw, kernel: Arithmetic) -> Case:
     """The flight lasts 3 times the distance."""
     of = draw.system()
@@ -51,17 +46,17 @@ def _separation(draw: Draw, kernel: Arithmetic) -> Case:
     return replace(case, digits=draw.choice((10, 20, 30)))
 
 
-def _grazing(draw: Draw, _: Arithmetic) -> Case:
+def _grazing(draw: Draw, kernel: Arithmetic) -> Case:
     """At both sides of it: an impact of speed 0, or none until much later."""
-    of, phase = _graze(draw)
+    eta, nu, phase = graze(kernel, draw.randrange(100))
     phase += draw.tiny(3, 30) * draw.sign()
-    return ImageCase(draw.family, *of, phase, phase)
+    return ImageCase(draw.family, eta, nu, phase, phase)
 
 
-def _tangent(draw: Draw, _: Arithmetic) -> Case:
-    of, phase = _graze(draw)
+def _tangent(draw: Draw, kernel: Arithmetic) -> Case:
+    eta, nu, phase = graze(kernel, draw.randrange(100))
     distance = draw.tiny(2, 14) * draw.sign()
-    return _around(draw, of, phase + distance, abs(distance) / 2)
+    return _around(draw, (eta, nu), phase + distance, abs(distance) / 2)
 
 
 def _long(draw: Draw, _: Arithmetic) -> Case:

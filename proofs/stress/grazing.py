@@ -3,51 +3,37 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import cache
+from typing import Any
 
 from proofs.benchmark.peers import Arithmetic
-from proofs.stress.truth import BITS, separation
+from proofs.stress.truth import BITS, Launched, Motion, separation
 
-_DIGITS = 80
-# By eta and nu, phases to 80 digits: gap = gap' = 0 at a time before which gap > 0, by Newton's
-# method from where the flight time of a search in floating point jumps.
+# By eta and nu: phases, and times after them where gap = gap' = 0, before which gap > 0.
 GRAZES = {
-    ("0.2121", "-0.2"): (
-        "1.199985859948170230409198749741551081231020378143098720356181914030751399757935",
-        "2.1364860287548289027487353177287578525812297616858308477722421866944235989093739",
-    ),
-    ("0.9", "-0.3"): (
-        "2.0424579323215820831424968892793933111256301248560542472272551968146875517478102",
-        "2.3066975860054578370065560559699241689886574675293707932101120988908447853288667",
-        "2.6045627331302255807048188278075096119411246655523048367908751123225390276743712",
-        "2.9447453813267196271787052234392781205373007573058849690034101373008332102193525",
-        "3.3313723701533262361122760030146372079116602264913198028149162291876899201357818",
-        "3.7621061730760169259258677885088521263133117005412764553769081007941157771421529",
-        "4.2276075844967646875666441006729436822314835284247471270278208161802327741030901",
-    ),
-    ("1.7", "-0.9"): (
-        "0.011799612739648851324827658980327645530398446684882681423467026396028635792793796",
-        "1.4051006700916248156942655094104453532495575873080956259128539500369350032518594",
-        "1.472642238851524727912411648420724655921306546635245212421489660264142304370355",
-        "1.8335112140042185193484287198778294814671733527649962640026531853687496835014395",
-        "2.4047600482979841286746835226090684322909913035914481898489713673228515755441473",
-    ),
-    ("0.35", "-0.5"): (
-        "1.1695285693972582160199922874209906315875075472468841052661871481191964040805781",
-        "1.2704332623016992965625613670166200595659580071611260970643124330897841574934882",
-        "2.1115471740642215367205341242255937028940733517714104793256187584736043940240763",
-    ),
-    ("1.4", "-2.3"): (
-        "0.38704064956303419003896927948749053135402020272950629208018103533515939135000487",
-        "0.5160877522217584880725184656976267421794687827158495735742173685793547175169826",
-    ),
+    ("0.2121", "-0.2"): "1.19998 25.874, 2.13648 5.152",
+    ("0.9", "-0.3"): "2.04245 49.322, 2.30669 42.51, 2.60456 35.632, 2.94474 28.668, "
+    "3.33137 21.612, 3.7621 14.467, 4.2276 7.253",
+    ("1.7", "-0.9"): "0.01179 3.118, 1.4051 6.615, 1.47264 25.329, 1.83351 12.041, 2.40476 4.615",
+    ("0.35", "-0.5"): "1.16952 13.369, 1.27043 32.017, 2.11154 5.202",
+    ("1.4", "-2.3"): "0.38704 2.368, 0.51608 2.109",
 }
+_PLACES = [(*of, *each.split()) for of, some in GRAZES.items() for each in some.split(", ")]
+_STEPS = 10
 
 
-def graze(number: int) -> tuple[Fraction, Fraction, Fraction]:
-    """Return (eta, nu, phase) of one of the grazing launches."""
-    known = [(*of, phase) for of, phases in GRAZES.items() for phase in phases]
-    eta, nu, phase = map(Fraction, known[number % len(known)])
-    return eta, nu, phase
+@cache
+def graze(kernel: Arithmetic, number: int) -> tuple[Fraction, Fraction, Fraction]:
+    """Return (eta, nu, phase) of one of the grazing launches, to 80 digits, by Newton's method."""
+    eta, nu, *near = map(Fraction, _PLACES[number % len(_PLACES)])
+    with kernel.precision(BITS):
+        phase, time = map(kernel.point, near)
+        for _ in range(_STEPS):
+            motion = Motion(kernel, Launched(eta, nu, Fraction(0)), phase)
+            gap, rate, bend = motion.gap(time, 2)
+            phase = kernel.middle(phase - gap / motion.rates(time, 0)[0])
+            time = kernel.middle(time - rate / bend)
+        return eta, nu, _decimal(kernel, phase)
 
 
 def separation_point(
@@ -58,7 +44,8 @@ def separation_point(
         phase = separation(kernel, eta, nu)
         if beginning:
             phase = kernel.pi() - phase
-        low = kernel.ends(phase)[0]
-        if low < 0:
-            low += 2 * kernel.ends(kernel.pi())[0]
-    return Fraction(round(low * 10**_DIGITS), 10**_DIGITS)
+        return _decimal(kernel, phase if kernel.ends(phase)[0] >= 0 else phase + 2 * kernel.pi())
+
+
+def _decimal(kernel: Arithmetic, x: Any) -> Fraction:
+    return Fraction(round(kernel.ends(x)[0] * 10**80), 10**80)

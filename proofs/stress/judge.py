@@ -12,7 +12,7 @@ from intervals import IntervalError
 from proofs.benchmark.peers import Arithmetic, Range
 from proofs.motion.witness import Impossible, NoImpact
 from proofs.shell.backstop import Overrun, within
-from proofs.stress.cases import Answer, Case, Ranges, Truth
+from proofs.stress.cases import Case, Ranges, Truth
 
 _TURN_BITS = 800
 _WIDEST = Fraction(10**300)
@@ -72,28 +72,30 @@ def judge(case: Case, kernel: Arithmetic, allowed: float = 1.0) -> Judgement:
         return Judgement(case, outcome, seconds, f"{type(error).__name__}: {error}")
     seconds = perf_counter() - began
     truths = case.truths(kernel)
-    outcome, reason = _compared(answer, truths, kernel)
-    widths = _widths(case, answer, truths, kernel) if outcome is Outcome.ENCLOSED else {}
-    return Judgement(case, outcome, seconds, reason, widths)
+    alternatives = answer if isinstance(answer, list) else [answer]
+    if wrong := _excluded(alternatives, truths, kernel):
+        return Judgement(case, Outcome.EXCLUDED, seconds, wrong)
+    if not any(truths):
+        return Judgement(case, Outcome.UNJUDGED, seconds, "the truth is out of reach")
+    if answer is alternatives:
+        return Judgement(case, Outcome.POSSIBLE, seconds)
+    widths = _widths(case, alternatives[0], truths, kernel)
+    return Judgement(case, Outcome.ENCLOSED, seconds, "", widths)
 
 
 def _has_impact(case: Case, kernel: Arithmetic) -> bool:
     return any(truth is not None and truth.known for truth in case.truths(kernel))
 
 
-def _compared(
-    answer: Answer, truths: Sequence[Truth | None], kernel: Arithmetic
-) -> tuple[Outcome, str]:
-    """Compare each sample: some alternative must meet all the true values that it speaks of."""
-    judged = [(number, truth) for number, truth in enumerate(truths) if truth is not None]
-    for number, truth in judged:
-        alternatives = answer.samples[min(number, len(answer.samples) - 1)]
-        wrong = [_wrong(said, truth, kernel) for said in alternatives]
+def _excluded(
+    alternatives: list[Ranges], truths: Sequence[Truth | None], kernel: Arithmetic
+) -> str:
+    """Say what is wrong: some alternative must meet all the true values that it speaks of."""
+    for number, truth in enumerate(truths):
+        wrong = [truth and _wrong(said, truth, kernel) for said in alternatives]
         if all(wrong):
-            return Outcome.EXCLUDED, f"sample {number}: {wrong[0]}"
-    if not judged:
-        return Outcome.UNJUDGED, "the truth is out of reach"
-    return (Outcome.POSSIBLE if answer.possible else Outcome.ENCLOSED), ""
+            return f"sample {number}: {wrong[0]}"
+    return ""
 
 
 def _wrong(said: Ranges, truth: Truth, kernel: Arithmetic) -> str:
@@ -121,18 +123,15 @@ def _beside(name: str, true: Range, said: Range, kernel: Arithmetic) -> Range:
 
 
 def _widths(
-    case: Case, answer: Answer, truths: Sequence[Truth | None], kernel: Arithmetic
+    case: Case, answer: Ranges, truths: Sequence[Truth | None], kernel: Arithmetic
 ) -> dict[str, float]:
     """Return the width of every quantity by the best possible; 1 where both are 0."""
     widths = {}
-    for name, said in answer.samples[0][0].items():
-        near = [
-            _beside(name, truth.known[name], said, kernel)
-            for truth in truths
-            if truth is not None and name in truth.known
-        ]
-        if len(near) < len(truths):
+    for name, said in answer.items():
+        known = [truth.known[name] for truth in truths if truth and name in truth.known]
+        if len(known) < len(truths):
             continue
+        near = [_beside(name, true, said, kernel) for true in known]
         best = case.best((min(x[0] for x in near), max(x[1] for x in near)))
         width = said[1] - said[0]
         if best > 0:

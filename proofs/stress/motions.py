@@ -31,11 +31,6 @@ class MapCase(Case):
     digits: int = 30
     horizon: Fraction = _HORIZON
 
-    @property
-    def system(self) -> System:
-        """The oscillator."""
-        return System(self.eta, self.nu)
-
     def launched(self, phi: Fraction) -> Launched:
         """Return one of the launches."""
         return Launched(self.eta, self.nu, phi)
@@ -64,14 +59,13 @@ class ImageCase(MapCase):
     def answer(self) -> Answer:
         """Return bounds of flight, phase and slope, or the set of possible images."""
         phases = self.low, self.high
-        found = image(self.system, phases, digits=self.digits, horizon=self.horizon)
+        found = image(System(self.eta, self.nu), phases, digits=self.digits, horizon=self.horizon)
         if isinstance(found, PossibleImages):
-            images = tuple({"flight": time, "phase": phase} for time, phase in found.images)
-            return Answer((images,), possible=True)
+            return [{"flight": time, "phase": phase} for time, phase in found.images]
         named = {"flight": found.flight, "phase": found.phase, "slope": found.slope}
         if found.dwell is not None:
             named["dwell"] = found.dwell
-        return Answer(((named,),))
+        return named
 
 
 @dataclass(frozen=True)
@@ -83,19 +77,14 @@ class ReboundCase(MapCase):
 
     def answer(self) -> Answer:
         """Return bounds of flight, phase, velocity and DF."""
+        system = System(self.eta, self.nu)
         phases, velocities = (self.low, self.high), (self.gamma, self.gamma)
-        found = rebound(
-            self.system,
-            phases,
-            velocities,
-            self.epsilon,
-            digits=self.digits,
-            horizon=self.horizon,
-        )
+        asked = system, phases, velocities, self.epsilon
+        found = rebound(*asked, digits=self.digits, horizon=self.horizon)
         named = {"flight": found.flight, "phase": found.phase, "velocity": found.velocity}
         entries = product(("phase", "velocity"), ("phi", "gamma"))
         named |= {f"{of} by {by}": x for (of, by), x in zip(entries, found.jacobian, strict=True)}
-        return Answer(((named,),))
+        return named
 
     def launched(self, phi: Fraction) -> Launched:
         """Return one of the launches."""

@@ -4,26 +4,25 @@ The first impact is found by steps that cannot pass a zero. The mass is a harmon
 amplitude A, so |d^k gap / dt^k| <= M_k = |nu| + eta^k A for k >= 2; where gap = g > 0 and gap' = v,
 the gap is positive for the next (v + sqrt(v^2 + 2 M g)) / M, M = M_2, by Taylor. Once 4 M g < v^2
 and v < 0, gap' < 0 on [t, t - 2 g / v] and gap < 0 at its end: one zero, and it is the first.
-While the gap is large the steps are floats, 2 % shorter: with Arb, too, this is a check and no
-proof.
+Few bits do for the steps far from zeros.
 """
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from fractions import Fraction
+from math import factorial
 from typing import Any
 
 from proofs.benchmark.peers import Arithmetic
 from proofs.stress.cases import Truth
 
 BITS = 1200  # 100 digits, after what cancels next to a graze or to zero flight time
+_FEW_BITS = 64
 _RELATIVE = Fraction(1, 2**360)  # to which impact times are known: more than 100 digits
 _SHORTER = 1 - Fraction(1, 2**20)  # of a step, for what rounding adds to it
-_MOST_STEPS = 4000
+_MOST_STEPS = 100_000
 _CONSTANT = ("slope", "phase by phi", "phase by gamma", "velocity by phi", "velocity by gamma")
-_FLOAT_STEPS = 400_000
 
 
 class Unknown(ArithmeticError):
@@ -42,71 +41,72 @@ class Launched:
 
 
 class Motion:
-    """The flight with position (1 + nu sin phi) cos(eta t) + c sin(eta t), as in (14)."""
+    """The flight after a launch; from another phase, if one is given."""
 
     def __init__(self, kernel: Arithmetic, of: Launched, phi: Any = None) -> None:
         self.kernel, self.of = kernel, of
         self.side = 1 if of.nu > 0 else -1
-        self.eta, self.nu = kernel.point(of.eta), kernel.point(of.nu)
+        self.eta, self.nu, self.epsilon = map(kernel.point, (of.eta, of.nu, of.epsilon))
         self.phi = kernel.point(of.phi) if phi is None else phi
-        self.sin, self.cos = self._sincos(self.phi)
-        self.height = 1 + self.nu * self.sin
-        self.restitution = kernel.point(of.epsilon)
-        self.speed = self.nu / self.eta * self.cos
-        if of.gamma is not None:
-            self.speed = self.speed * (1 + self.restitution)
-            self.speed += self.restitution * kernel.point(of.gamma)
-        self.amplitude = kernel.call("sqrt", self.height * self.height + self.speed * self.speed)
+        self.gamma = kernel.point(of.gamma or 0)
+        height, speed = self._launch(self.phi, self.gamma)
+        self.amplitude = kernel.call("sqrt", height * height + speed * speed)
 
     def _sincos(self, x: Any) -> tuple[Any, Any]:
         return self.kernel.call("sin", x), self.kernel.call("cos", x)
+
+    def _launch(self, phi: Any, gamma: Any) -> tuple[Any, Any]:
+        """Return the coefficients of cos(eta t) and sin(eta t) in (14)."""
+        sin, cos = self._sincos(phi)
+        speed = self.nu / self.eta * (1 + self.epsilon) * cos + self.epsilon * gamma
+        return 1 + self.nu * sin, speed
+
+    def after(self, phi: Any, gamma: Any, t: Any) -> tuple[Any, Any]:
+        """Return side times the left side of (14), and the velocity by (15): numbers or series."""
+        (height, speed), (s, c) = self._launch(phi, gamma), self._sincos(self.eta * t)
+        gap = height * c + speed * s - 1 - self.nu * self._sincos(phi + t)[0]
+        return self.side * gap, height * s - speed * c
 
     def most(self, order: int) -> Any:
         """Return M_order."""
         return abs(self.nu) + self.eta**order * self.amplitude
 
-    def gap(self, t: Any, order: int = 0) -> Any:
-        """Return side times the left side of (14), or its time derivative of an order up to 3."""
-        s, c = self._sincos(self.eta * t)
-        table = self._sincos(self.phi + t)[order % 2]
-        mass = (self.height * c + self.speed * s, self.speed * c - self.height * s)[order % 2]
-        sign = 1 if order < 2 else -1
-        distance = sign * (self.eta**order * mass - self.nu * table)
-        return self.side * (distance if order else distance - 1)
+    def gap(self, t: Any, order: int) -> list[Any]:
+        """Return the gap and its derivatives by time up to some order, at least 1."""
+        time = self.kernel.series([t, self.kernel.point(1), *[self.kernel.point(0)] * (order - 1)])
+        gap, _ = self.after(self.phi, self.gamma, time)
+        return [self.kernel.coefficient(gap, k) * factorial(k) for k in range(order + 1)]
+
+    def rates(self, t: Any, k: int) -> tuple[Any, Any]:
+        """Return the derivatives of gap and velocity by phi, gamma or t."""
+        at = [self.phi, self.gamma, t]
+        at[k] = self.kernel.series([at[k], self.kernel.point(1)])
+        gap, velocity = self.after(*at)
+        return self.kernel.coefficient(gap, 1), self.kernel.coefficient(velocity, 1)
 
     def answers(self, t: Any) -> dict[str, Any]:
-        """Return flight, phase, and f' or gamma and DF, at an impact, by implicit differentiation.
-
-        The gap's derivatives by t, phi and gamma; those of the time follow, then (15).
-        """
-        s, c = self._sincos(self.eta * t)
-        table = self.nu * self.kernel.call("cos", self.phi + t)
-        by_t = self.eta * (self.speed * c - self.height * s) - table
-        share = 1 if self.of.gamma is None else 1 + self.restitution
-        speed_by_phi = -self.nu / self.eta * self.sin * share
-        by_phi = self.nu * self.cos * c + speed_by_phi * s - table
+        """Return flight, phase, gamma and f' or DF at an impact, by implicit differentiation."""
         found = {"flight": t, "phase": self.phi + t}
-        found["velocity"] = self.height * s - self.speed * c
+        found["velocity"] = self.after(self.phi, self.gamma, t)[1]
+        by_t, push = self.rates(t, 2)
+        for k, name in enumerate(("phi", "gamma")):
+            gap, velocity = self.rates(t, k)
+            found[f"phase by {name}"] = 1 - k - gap / by_t
+            found[f"velocity by {name}"] = velocity - gap / by_t * push
         if self.of.gamma is None:
-            return found | {"slope": 1 - by_phi / by_t}
-        time_by_phi, time_by_gamma = -by_phi / by_t, -self.restitution * s / by_t
-        pull = self.eta * (self.height * c + self.speed * s)
-        return found | {
-            "phase by phi": 1 + time_by_phi,
-            "phase by gamma": time_by_gamma,
-            "velocity by phi": self.nu * self.cos * s - speed_by_phi * c + time_by_phi * pull,
-            "velocity by gamma": -self.restitution * c + time_by_gamma * pull,
-        }
+            names = {"flight": "flight", "phase": "phase", "phase by phi": "slope"}
+            return {new: found[old] for old, new in names.items()}
+        return found
 
 
 def first_impact(kernel: Arithmetic, of: Launched, horizon: Fraction) -> Truth:
     """Return the truth about the next impact, phases up to 2 pi; raise Unknown where it must."""
     with kernel.precision(BITS):
         motion = Motion(kernel, of)
-        first, second = (_sign(kernel, motion.gap(kernel.point(0), k)) for k in (1, 2))
-        if of.gamma is not None and of.epsilon != 0 and first < 0:
+        _, first, second = motion.gap(kernel.point(0), 2)
+        if of.gamma is not None and of.epsilon != 0 and _sign(kernel, first) < 0:
             raise Unknown("an impossible state")
-        sticks = (of.gamma is None or of.epsilon == 0) and second < 0
+        sticks = (of.gamma is None or of.epsilon == 0) and _sign(kernel, second) < 0
         if sticks:
             leave = separation(kernel, of.eta, of.nu)
             if leave is None:
@@ -141,25 +141,37 @@ def _sign(kernel: Arithmetic, x: Any) -> int:
 
 
 def _first_zero(motion: Motion, horizon: Fraction, *, leaving: bool) -> Any:
-    """Return the first t > 0 with gap = 0, or None; gap > 0 before it.
+    """Return the first t > 0 with gap = 0, or None; gap > 0 before it."""
+    kernel = motion.kernel
+    t = _start(motion, leaving)
+    for bits in (_FEW_BITS, BITS):
+        with kernel.precision(bits):
+            t = _advanced(motion, t, horizon)
+    if kernel.ends(t)[0] >= horizon:
+        return None
+    if _sign(kernel, motion.gap(t, 1)[0]) <= 0:
+        raise Unknown("the gap touches 0 to within what is computed")
+    return _polished(motion, t)
+
+
+def _advanced(motion: Motion, t: Any, horizon: Fraction) -> Any:
+    """Step to the horizon, or to where the gap falls to its first zero, or is not known to be > 0.
 
     M is M_2, or in the next t alone, where that is less, |gap''(t)| + M_3 t.
     """
     kernel = motion.kernel
-    t = _start(motion, leaving)
     for _ in range(_MOST_STEPS):
-        t = _coast(motion, t, horizon)
         if kernel.ends(t)[0] >= horizon:
-            return None
-        gap, rate = motion.gap(t), motion.gap(t, 1)
+            return t
+        gap, rate, second = motion.gap(t, 2)
         if _sign(kernel, gap) <= 0:
-            raise Unknown("the gap touches 0 to within what is computed")
-        bend = abs(motion.gap(t, 2)) + motion.most(3) * t
+            return t
+        bend = abs(second) + motion.most(3) * t
         near = _sign(kernel, motion.most(2) - bend) > 0
         bend = bend if near else motion.most(2)
         falls = _sign(kernel, rate) < 0 and _sign(kernel, 4 * bend * gap - rate * rate) < 0
         if falls and not (near and _sign(kernel, 2 * gap + rate * t) > 0):
-            return _polished(motion, t)
+            return t
         step = (rate + kernel.call("sqrt", rate * rate + 2 * bend * gap)) / bend
         if near and _sign(kernel, step - t) > 0:
             step = t
@@ -170,7 +182,7 @@ def _first_zero(motion: Motion, horizon: Fraction, *, leaving: bool) -> Any:
 def _start(motion: Motion, leaving: bool) -> Any:
     """Return a time up to which the gap is positive, by its Taylor polynomial at the launch."""
     kernel = motion.kernel
-    first, second, third = (motion.gap(kernel.point(0), k) for k in (1, 2, 3))
+    _, first, second, third = motion.gap(kernel.point(0), 3)
     starts = []
     if leaving or (_sign(kernel, second) > 0 and _sign(kernel, third) > 0):
         starts.append(2 * third / motion.most(4))
@@ -184,42 +196,14 @@ def _start(motion: Motion, leaving: bool) -> Any:
     return kernel.middle(latest * kernel.point(_SHORTER))
 
 
-def _coast(motion: Motion, start: Any, horizon: Fraction) -> Any:
-    """Take the long steps in floats, 2 % shorter, while the gap is far above their rounding."""
-    try:
-        eta, nu, phi, height, speed, bend, begin = (
-            _float(motion.kernel, x)
-            for x in (motion.eta, motion.nu, motion.phi, motion.height, motion.speed,
-                      motion.most(2), start)
-        )  # fmt: skip
-    except OverflowError:
-        return start
-    t, safe = begin, begin
-    for _ in range(_FLOAT_STEPS):
-        s, c = math.sin(eta * t), math.cos(eta * t)
-        gap = motion.side * (height * c + speed * s - 1 - nu * math.sin(phi + t))
-        size = abs(height) + abs(nu) + abs(speed) * min(1.0, eta * t) + 1
-        if not gap > 1e-4 * size:
-            break
-        safe = t
-        if t > float(horizon):
-            break
-        rate = motion.side * (eta * (speed * c - height * s) - nu * math.cos(phi + t))
-        t += 0.98 * (rate + math.sqrt(rate * rate + 1.9 * bend * gap)) / bend
-    return motion.kernel.point(Fraction(safe)) if safe > begin else start
-
-
-def _float(kernel: Arithmetic, x: Any) -> float:
-    return float(sum(kernel.ends(x)) / 2)
-
-
 def _polished(motion: Motion, t: Any) -> Any:
     """Return the zero next to t, by Newton's method, its ends proved by the signs of the gap."""
     kernel = motion.kernel
     for _ in range(14):
-        t = kernel.middle(t - motion.gap(t) / motion.gap(t, 1))
+        gap, rate = motion.gap(t, 1)
+        t = kernel.middle(t - gap / rate)
     reach = abs(t) * kernel.point(_RELATIVE)
-    signs = [_sign(kernel, motion.gap(end)) for end in (t - reach, t + reach)]
+    signs = [_sign(kernel, motion.gap(end, 1)[0]) for end in (t - reach, t + reach)]
     if signs != [1, -1]:
         raise Unknown("the impact is too slow for 100 digits")
     return kernel.number(kernel.ends(t - reach)[0], kernel.ends(t + reach)[1])

@@ -263,7 +263,7 @@ ENDS = st.sampled_from([-math.inf, -MAX, -3.0, -1.0, 0.0, 0.5, 2.0, 1e200, MAX, 
 UNBOUNDED = st.tuples(ENDS, ENDS).map(sorted).filter(lambda x: x[0] < math.inf and x[1] > -math.inf)
 ONE = ["sqrt", "cbrt", "exp", "exp2", "exp10", "expm1", "log", "log2", "log10", "log1p", "asin"]
 ONE += ["atan", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "sin", "cos", "floor", "sign"]
-INSIDE = st.sampled_from([-1e300, -1e9, -3.0, -1.0, 0.0, 0.25, 2.0, 1e9, 1e300])
+INSIDE = st.sampled_from([-1e300, -1e5, -3.0, -1.0, 0.0, 0.25, 2.0, 1e5, 1e300])
 
 
 POINTS = st.tuples(INSIDE, INSIDE)

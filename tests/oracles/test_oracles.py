@@ -73,16 +73,6 @@ def test_every_class_of_conclusions_has_an_oracle_and_is_proved_and_made_false()
     assert classes() == set(FALSE) == {one.kind for _, one in true_views()}
 
 
-@pytest.mark.parametrize("name", sorted(classes()))
-def test_what_is_proved_is_accepted(name):
-    told = {}
-    for where, record in true_views():
-        if record.kind == name:
-            told[where] = judge(deepcopy(record), random.Random(where))
-    assert told
-    assert not any(told.values()), {where: one for where, one in told.items() if one}
-
-
 def off(bounds):
     """Bounds that miss what lay in these."""
     width = bounds[1] - bounds[0] + F(1, 100)
@@ -510,6 +500,16 @@ FALSE = {
         put("contraction", (F(1), F(2))),
     ],
 }
+
+
+@pytest.mark.parametrize("name", FALSE)
+def test_what_is_proved_is_accepted(name):
+    told = {}
+    for where, record in true_views():
+        if record.kind == name:
+            told[where] = judge(deepcopy(record), random.Random(where))
+    assert told
+    assert not any(told.values()), {where: one for where, one in told.items() if one}
 
 
 @pytest.mark.parametrize("kind", FALSE)

@@ -31,8 +31,8 @@ def motion(system: System, begin: float, turns: int) -> tuple[list[tuple[float, 
             samples += _steps(now, min(leaves, end), lambda t: _table(system, t))
             now = leaves + _JUST_AFTER
             start = launch(side, eta, nu, now % math.tau)
-        impact = next_impact(system, now % math.tau, 0.0, 1000.0)
-        last = end if impact is None else now + impact[0]
+        impact = next_impact(system, now % math.tau)
+        last = end if impact is None else now + impact.time
         samples += _steps(
             now,
             min(last, end),

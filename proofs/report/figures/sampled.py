@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-from proofs.motion.candidate import next_impact as first_impact
 from proofs.motion.simulate import next_impact, separation_phase
 from proofs.motion.system import System
 from proofs.trusted.equations import launch, launch_acceleration
@@ -18,8 +17,8 @@ def image(system: System, phase: float) -> float | None:
     start = launch(system.side, float(system.eta), float(system.nu), phase)
     if launch_acceleration(start) < 0:
         return separation_phase(system) % math.tau
-    impact = next_impact(system, phase, 0.0, _HORIZON)
-    return None if impact is None else (phase + impact[0]) % math.tau
+    impact = next_impact(system, phase, _HORIZON)
+    return None if impact is None else impact.phase
 
 
 def graph(system: System, first: float, last: float, count: int) -> list[tuple[float, float]]:
@@ -34,9 +33,8 @@ def preimage(system: System, target: float, first: float, last: float) -> float:
     """
     phase = (first + last) / 2
     for _ in range(_STEPS):
-        impact = first_impact(system, phase)
+        impact = next_impact(system, phase)
         if impact is None:
             break
-        _, there, slope = impact
-        phase = min(max(phase - (there - target) / slope, first), last)
+        phase = min(max(phase - (impact.phase - target) / impact.slope, first), last)
     return phase

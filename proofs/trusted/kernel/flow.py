@@ -37,7 +37,7 @@ from proofs.trusted.kernel.enclose import (
 from proofs.trusted.kernel.formulas import MAX_VALUES, Formulas, same_form
 from proofs.trusted.kernel.head import optional, read_head, require_periods
 from proofs.trusted.kernel.lohner import Field, Point, Solutions, linearized, moved
-from proofs.trusted.kernel.section import Gap, Journey, Section, hulls
+from proofs.trusted.kernel.section import LATEST, Gap, Journey, Section, hulls
 from proofs.trusted.kernel.trees import At, Derivative, Operation, Tree, Variable, read_tree
 
 _MOST_STATES, _MOST_CROSSINGS, _MOST_GAPS = 8, 100, 6
@@ -155,8 +155,12 @@ class Flow:
         """Return the solutions for all w, the parameters in ranges among them, at their start."""
         solutions = Solutions.of(self.equation, w)
         everywhere, middle = map(self._at_start, (w, solutions.middle))
-        if self.end.is_time and self.section.gap.at(everywhere)[0].lo <= 0:
-            raise Futile("the time is not proved positive")
+        if self.end.is_time:
+            time, _ = self.section.gap.at(everywhere)
+            if time.lo <= 0:
+                raise Futile("the time is not proved positive")
+            if time.lo >> time.bits >= LATEST:
+                raise Futile(f"the time is not proved to be before {LATEST}")
         slopes = [
             [*row[: self.first], *row[self.first + self.equation.n + 1 :]]
             for row in self.start.jacobian(everywhere)

@@ -23,9 +23,10 @@ _EIGHTHS = (64, 70, 76, 83, 91, 99, 108, 117)  # 2^(j/8), about, in 64ths
 _FIRST, _SHORTEST, _LONGEST = -32, -192, 64  # lengths of steps, 2^(n/8)
 _SHORTER, _HALF, _LESS = -4, -8, -1  # changes of n
 _FINE, _UNITS = 12, 256  # the rest of a step is about 2^-12 of the set, and so many units
-_MOST_STEPS, _LATEST = 10_000, 1024
+LATEST = 1024  # a time beyond which solutions are not followed
+_MOST_STEPS = 10_000
 _NEWTON = 20
-_NOT_REACHED = "the section is not reached so often"
+_NOT_REACHED = f"the end is not reached in {_MOST_STEPS} steps and the time {LATEST}"
 
 
 class Fate(Enum):
@@ -97,15 +98,14 @@ class Journey:
                 fate = Fate.OPEN if step is None else self.watch(step)
                 if step and not all(self._stays(wall, step, fate) for wall in self.section.walls):
                     fate = Fate.OPEN
-                if step is None or fate is Fate.OPEN:
-                    length += change if step is None else _HALF
-                    if length < _SHORTEST:
-                        raise self._stopped(self._reason(step))
-                    continue
-                self._move(step, fate)
-                if self.falls == self.section.number:
-                    return self._arrival()
-                length = min(length + change, _LONGEST)
+                is_taken = step is not None and fate is not Fate.OPEN
+                if step is not None and is_taken:
+                    self._move(step, fate)
+                    if self.falls == self.section.number:
+                        return self._arrival()
+                length = min(length + (change if is_taken or step is None else _HALF), _LONGEST)
+                if length < _SHORTEST:
+                    raise self._stopped(self._reason(None if is_taken else step))
         except Exhausted as error:
             raise Exhausted(f"{error}; {self._place()}") from None
         raise self._stopped(_NOT_REACHED)
@@ -173,7 +173,7 @@ class Journey:
             if fate is not Fate.FALLING:
                 self.falling.clear()
             self.now, self.time = self.solutions.after(step), self.time + step.h
-            if self.time > _LATEST:
+            if self.time > LATEST:
                 raise self._stopped(_NOT_REACHED)
 
     # -- at the section ----------------------------------------------------------------------------

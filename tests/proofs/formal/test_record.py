@@ -89,6 +89,7 @@ def test_the_ledger_says_what_the_record_says():
         assert row["coq"] == ([*known.theorems] if known else []), row["id"]
 
 
+@pytest.mark.slow
 def test_what_is_entered_is_stated_for_that_certificate():
     """Each theorem of the record stands, about its claim, in the case that is written now."""
     for file, known in ENTRIES.items():

@@ -101,6 +101,7 @@ def test_what_is_no_question(ask, message):
     assert message in str(caught.value)
 
 
+@pytest.mark.slow
 def test_the_command_takes_it(capsys):
     assert main(["--example", "roessler", "--ask", "flow:t=1,p=-8.4,q=0.03"]) == 0
     assert "its values are `x` in [7.7565107555" in capsys.readouterr().out

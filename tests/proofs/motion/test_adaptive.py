@@ -6,14 +6,15 @@ from fractions import Fraction
 import pytest
 from mpmath import mp, mpf
 
+from proofs.benchmark.peers import FLINT, arithmetic
 from proofs.motion.brackets import impact_time, impact_times
-from proofs.motion.branch import Branch
-from proofs.motion.candidate import next_impact
 from proofs.motion.covering import bits_needed, cover_by
+from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
-from proofs.motion.witness import FLOATS, FlightBox, Unsettled, locate, march
+from proofs.motion.witness import FlightBox, Unsettled, locate, march
 from proofs.search.image import Image, image
 from proofs.stress.grazing import graze
+from proofs.stress.truth import BITS
 from proofs.trusted import flights as trusted
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -101,13 +102,12 @@ def test_intervals_next_to_the_onset_of_sticking_have_images(exponent, share):
 def test_precision_grows_where_it_must():
     usual = flights(PAPER, Fraction("1.11"), Fraction("1.15"))
     assert bits_needed(usual) == COVER_BITS
-    assert {part.bits for part in cover_by(usual, floats=False)} == {COVER_BITS}
-    assert {part.bits for part in cover_by(usual)} == {FLOATS}
+    assert {part.bits for part in cover_by(usual)} == {COVER_BITS}
     needed = []
     for exponent in (1, 6, 12, 24):
         low = ONSET - Fraction(1, 10**exponent)
         high = low + Fraction(1, 10 ** (exponent + 3))
-        parts = cover_by(flights(PAPER, low, high), floats=False)
+        parts = cover_by(flights(PAPER, low, high))
         assert (parts[0].flights.phases[0], parts[-1].flights.phases[1]) == (low, high)
         assert all(part.transversal and part.proved().transversal for part in parts)
         needed.append(max(part.bits for part in parts))
@@ -138,7 +138,7 @@ def in_json(values):
 @pytest.mark.parametrize("side", [-1, 1])
 @pytest.mark.parametrize("exponent", [5, 17, 30])
 def test_what_is_found_next_to_grazing_is_what_the_checker_finds(exponent, side):
-    eta, nu, phase = graze(2)
+    eta, nu, phase = graze(arithmetic(FLINT, BITS), 2)
     point = phase + side * Fraction(1, 10**exponent)
     found = locate(flights(System(eta, nu), point))
     assert found.transversal and len(found.windows) == 1
@@ -171,13 +171,13 @@ def asked(monkeypatch):
 @pytest.mark.parametrize("single", [True, False])
 def test_unsettled_knows_where_the_gap_is_positive(single, asked):
     # a launch next to grazing, looked at with coarse steps: the minimum is neither > 0 nor < 0
-    eta, nu, phase = graze(2)
+    eta, nu, phase = graze(arithmetic(FLINT, BITS), 2)
     box, start = flights(System(eta, nu), phase), [Fraction(1, 64)]
     about = (
         next_impact(System(eta, nu), float(phase) + 1e-3),
         next_impact(System(eta, nu), float(phase) - 1e-3),
     )
-    horizon = Fraction(min(one[0] for one in about)) + 5
+    horizon = Fraction(min(each.time for each in about)) + 5
     with pytest.raises(Unsettled) as refused:
         march(box, COVER_BITS, horizon, Fraction(1, 8), start, single=single)
     excluded, latest = refused.value.excluded, max(time for _, time in asked)
@@ -188,11 +188,10 @@ def test_unsettled_knows_where_the_gap_is_positive(single, asked):
     assert all(gap_of((time, time), 0).lo > 0 for time in excluded)
 
 
-@pytest.mark.parametrize("bits", [FLOATS, COVER_BITS])
-def test_a_window_is_narrowed_to_the_impacts_of_all_launches(bits):
+def test_a_window_is_narrowed_to_the_impacts_of_all_launches():
     box = flights(PAPER, Fraction("1.11"), Fraction("1.12"))
-    (window,) = march(box, bits).windows
-    low, high = impact_times(box.gap_of(bits and bits + 16), window, 16)
+    (window,) = march(box, COVER_BITS).windows
+    low, high = impact_times(box.gap_of(COVER_BITS + 16), window, 16)
     ends = [flights(PAPER, x) for x in box.phases]
     times = [t for end in ends for t in impact_time(end, locate(end).windows[0], 40)]
     assert window[0] < low < min(times) and max(times) < high < window[1]
@@ -204,8 +203,6 @@ def test_a_window_is_narrowed_to_the_impacts_of_all_launches(bits):
 def test_what_is_seen_and_not_proved_is_refused():
     seen = march(flights(PAPER, Fraction("1.19"), Fraction("1.21")), COVER_BITS)  # some graze
     assert not seen.transversal
-    with pytest.raises(Unproved, match="not transversal"):
-        Branch([("", seen.proved())], 60)
     with pytest.raises(Unproved, match="not proved transversal"):
         seen._replace(transversal=True).proved()
     early = seen._replace(times=seen.times[:-1])

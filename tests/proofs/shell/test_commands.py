@@ -16,6 +16,7 @@ from proofs.commands.groups import GROUPS
 from proofs.shell.groups import FILES, produce, wanted
 from proofs.trusted.manifest import command
 from proofs.trusted.parameters import PAPER
+from proofs.trusted.verify import check as verified
 from tests.proofs.shell.processes import AT, QUICK, ROOT, arguments_of
 from tests.proofs.trusted import corpus
 
@@ -113,6 +114,16 @@ def test_what_a_command_takes_is_what_it_heeds(name):
     assert {x for x in CHANGES if decided[x] != decided[""]} == set(GROUPS[name].heeded)
     same = {x["id"] for x in decided[""] if all(x in claims for claims in decided.values())}
     assert same >= {*GROUPS[name].fixed}
+
+
+def test_two_provers_that_name_their_steps_alike_share_a_certificate():
+    """Each alone calls its first steps equal-1, equal-2, ...; what they prove is not the same."""
+    made = produce({"soft": ("S1", "S6"), "foundations": ("M1", "M2")}, PAPER, digits=12)
+    alone = produce({"foundations": ("M1", "M2")}, PAPER, digits=12)
+    assert made.lines[2:] == alone.lines
+    steps, own = (json.loads(each.certificate)["steps"] for each in (made, alone))
+    assert steps.keys() & own.keys() and len(verified(made.certificate).claims) == 4
+    assert all(step in steps.values() for step in own.values())
 
 
 @pytest.mark.parametrize("name", FILES)

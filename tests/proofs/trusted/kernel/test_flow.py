@@ -314,7 +314,7 @@ def test_the_inverse_of_a_frame_is_enclosed():
 
 
 ON, NO_STEP = "on both sides of the section", "it is not proved that the solutions go on"
-TOUCHED, NEVER = "whether the section is crossed or touched", "the section is not reached so often"
+TOUCHED, NEVER = "whether the section is crossed or touched", "the end is not reached in"
 STAYS = "it is not proved that the gaps stay > 0"
 INTO, PERIOD = "no derivatives of what flows", "not proved to respect the period"
 STATE = [("0", "0"), ("0", "0"), ("0", "0")]
@@ -354,6 +354,8 @@ LIES = [  # what is false, the function, a box, the reason
     ("another direction", line("1", section("x - 3")), ONE, NEVER),
     ("no positive time", line("1", {"time": "a - 1"}), ONE, "not proved positive"),
     ("a time that may be 0", line("1", {"time": "a - 9/10"}), UNIT, "not proved positive"),
+    ("a time far away", line("1", {"time": "1024"}), ONE, "not proved to be before 1024"),
+    ("ever shorter steps", line("1/(x - 5/4)**2", {"time": "1"}), ONE, NO_STEP),
     ("a time of the state", line("1", {"time": "x"}), ONE, "depends on the variables of the map"),
     ("a start that moves", line("1", {"time": "1"}, start=["a + t"]), ONE, "does not depend on"),
     ("a start by the state", line("1", {"time": "1"}, start=["x"]), ONE, "does not depend on"),
