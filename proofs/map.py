@@ -331,19 +331,19 @@ class Map:
         return [sides.get(each, side) for each, side in zip(self.variables, around, strict=True)]
 
     def _image(self, file: Any, function: str, state: Mapping[str, Ends]) -> Theorem:
-        from proofs.trusted.kernel.enclose import enclosed
+        from proofs.methods.divisions import image_of
         from proofs.trusted.numbers import ceil_text, floor_text
 
         box = box_of(self.variables, state)
         try:
-            values = file.map(function).values(enclosed(box, _BITS))
+            tree, image = image_of(file.map(function), box, _BITS)
         except Unproved as error:
             raise Undecided(str(error)) from None
         bounds = [
             [str(Fraction(floor_text(low, _DIGITS))), str(Fraction(ceil_text(high, _DIGITS)))]
-            for low, high in (value.range for value in values)
+            for low, high in image
         ]
-        witness = {"function": function, "box": list(map(texts, box)), "tree": None}
+        witness = {"function": function, "box": list(map(texts, box)), "tree": tree}
         return theorem_of(file, [file.add("image", {**witness, "bounds": bounds})])
 
 
