@@ -225,7 +225,7 @@ class NormalForms:
     ) -> Polynomial:
         """Return exp of sign * argument, or of i times that."""
         powers = [
-            number((-1) ** int(value))  # exp(i pi n)
+            number(1 - 2 * (int(value) % 2))  # exp(i pi n)
             if circular and monomial == ((self.variables, 1),) and value.denominator == 1
             else self._generator(Exponential(circular, monomial), _whole(sign * value))
             for monomial, value in argument.items()

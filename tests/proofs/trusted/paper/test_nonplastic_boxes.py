@@ -110,6 +110,7 @@ def state(phi, gamma, image, at=EXACT):
 
 BARRED = word("11111")
 RIGHT_CORNER = state("1.15", "-0.45", "1.30")
+LEFT_CORNER = state("1.11", "0", "1.10")
 
 
 def verdict(claim, found, of=PAPER):
@@ -157,14 +158,16 @@ def test_n4_is_about_the_whole_box_or_a_point_of_it(found, expected):
         ([word("11111", CORNER)], UNDECIDED),
         ([word("11111", sets=OTHER_VELOCITIES)], UNDECIDED),
         ([V1, V2], UNDECIDED),
-        ([RIGHT_CORNER], REFUTED),
-        ([state("1.15", "-0.45", "1.30", CORNER)], UNDECIDED),
-        ([state("1.15", "-0.3", "1.30")], UNDECIDED),  # no corner
-        ([state("1.14", "-0.45", "1.30")], UNDECIDED),
-        ([state("1.15", "-0.45", "1.3195")], UNDECIDED),  # perhaps beyond 1.32
-        ([state("1.15", "-0.45", "1.40")], UNDECIDED),
-        ([state("1.11", "0", "1.1105")], UNDECIDED),
-        ([state("1.11", "0", "1.12")], REFUTED),
+        ([RIGHT_CORNER, LEFT_CORNER], REFUTED),
+        ([RIGHT_CORNER], UNDECIDED),  # the left edge may be a turn away
+        ([RIGHT_CORNER, state("1.11", "0", "-5.2")], UNDECIDED),  # it is
+        ([state("1.15", "-0.45", "1.30", CORNER), LEFT_CORNER], UNDECIDED),
+        ([state("1.15", "-0.3", "1.30"), LEFT_CORNER], UNDECIDED),  # no corner
+        ([state("1.14", "-0.45", "1.30"), LEFT_CORNER], UNDECIDED),
+        ([state("1.15", "-0.45", "1.3195"), LEFT_CORNER], UNDECIDED),  # perhaps beyond 1.32
+        ([state("1.15", "-0.45", "1.40"), LEFT_CORNER], UNDECIDED),
+        ([state("1.11", "0", "1.1105"), state("1.15", "-0.45", "1.40")], UNDECIDED),
+        ([state("1.11", "0", "1.12"), state("1.15", "-0.45", "1.40")], REFUTED),
     ],
 )
 def test_n1(found, expected):
