@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -9,7 +10,6 @@ from itertools import product
 from typing import Any
 
 from intervals import Undecided
-from proofs.motion.brackets import impact_times
 from proofs.motion.covering import halves
 from proofs.motion.witness import BLIND, FlightBox, march
 from proofs.trusted.certificate import SCHEMA
@@ -18,7 +18,7 @@ from proofs.trusted.files import box_to_json, render
 from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.enclose import enclosed
-from proofs.trusted.kernel.gaps import falls
+from proofs.trusted.kernel.gaps import Gap, falls
 from proofs.trusted.numbers import COVER_BITS, Range
 from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.parameters import Place
@@ -97,6 +97,20 @@ def times_for(flights: FlightBox, latest: float) -> list[Fraction]:
                 if falls(gap_of, (begin, soon), _FALLS):
                     return [*seen.times[:-1], soon]
     raise Undecided(_NOT_SEEN)
+
+
+def impact_times(gap_of: Gap, window: Range, halvings: int) -> Range:
+    """Bracket the impacts of all launches of a set, as the signs of their gaps allow.
+
+    To multiples of 2^-halvings of the window: where the gap is > 0 for all launches no zero lies
+    before, where it is < 0 none lies after.
+    """
+    (low, high), count = window, 2**halvings
+    unit = (high - low) / count
+    inner = range(1, count)
+    first = bisect(inner, False, key=lambda k: gap_of((low + k * unit,) * 2, 0).lo <= 0)
+    last = bisect(inner, False, key=lambda k: gap_of((high - k * unit,) * 2, 0).hi >= 0)
+    return low + first * unit, high - last * unit
 
 
 def bracket(box: Place, phases: Range, times: list[Fraction]) -> Range:

@@ -13,7 +13,7 @@ from typing import Any
 
 from intervals import Undecided
 from intervals.cover import PartsExhausted, cover
-from proofs.methods.derivation import Derivation, concluded
+from proofs.methods.derivation import Derivation
 from proofs.methods.extremes import extremes
 from proofs.methods.moran import moran_root
 from proofs.motion.covering import halves
@@ -67,9 +67,9 @@ class Prover(Derivation):
         """It, as witnesses name it."""
         return {"eta": texts(self.at.eta), "nu": texts(self.at.nu)}
 
-    def derive(self, rule: str, witness: dict[str, Any]) -> tuple[str, Any]:
+    def derive(self, rule: str, witness: dict[str, Any], kind: str = "") -> tuple[str, Any]:
         """Add a step; return its name, with what it concludes."""
-        name = self.add(rule, witness)
+        name = self.add(rule, witness, kind)
         return name, self.known[name]
 
     def claimed(self, name: str) -> Proved:
@@ -151,13 +151,7 @@ class Prover(Derivation):
             "turns": [str(image.range[0] // TURN)],
             "bits": str(self.bits),
         }
-        conclusion = concluded("differential", witness, self.context)
-        name = f"point-{1 + sum(name.startswith('point-') for name in self.steps)}"
-        self.steps[name], self.known[name] = (
-            {"rule": "differential", "witness": witness},
-            conclusion,
-        )
-        return name, conclusion
+        return self.derive("differential", witness, "point")
 
     def root(self, ratios: Range) -> tuple[str, MoranRoot]:
         """Bracket the root of r0^s + r1^s = 1 (rule moran-root)."""

@@ -6,11 +6,11 @@ import pytest
 from mpmath import mp, mpf
 
 from proofs.benchmark.peers import FLINT, arithmetic
-from proofs.motion.brackets import impact_time, impact_times
 from proofs.motion.covering import bits_needed
 from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
 from proofs.motion.witness import FlightBox, Unsettled, locate, march
+from proofs.plane.steps import impact_times
 from proofs.search.image import Image, image
 from proofs.stress.grazing import graze
 from proofs.stress.truth import BITS
@@ -176,8 +176,7 @@ def test_a_window_is_narrowed_to_the_impacts_of_all_launches():
     box = flights(PAPER, Fraction("1.11"), Fraction("1.12"))
     (window,) = march(box, COVER_BITS).windows
     low, high = impact_times(box.gap_of(COVER_BITS + 16), window, 16)
-    ends = [flights(PAPER, x) for x in box.phases]
-    times = [t for end in ends for t in impact_time(end, locate(end).windows[0], 40)]
+    times = [next_impact(PAPER, float(phase)).time for phase in box.phases]
     assert window[0] < low < min(times) and max(times) < high < window[1]
     last, gap_of = (window[1] - window[0]) / 2**16, box.gap_of(2 * COVER_BITS)
     signs = [gap_of((x, x), 0) for x in (low, low + last, high, high - last)]
