@@ -30,7 +30,7 @@ BUDGETS = {
     "rules outside the kernel": 24,
     "loose modules": 9,  # of the package proofs
     "tracked files": 921,
-    "headline": 7_355,  # lines of the files that run to check reports/horseshoe.json
+    "headline": 7_360,  # lines of the files that run to check reports/horseshoe.json
     "way of H2": 8_585,  # lines of the files that run to prove H2 and to check it
     "way of H2, files": 53,
 }
