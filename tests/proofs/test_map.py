@@ -432,6 +432,11 @@ impact = [{ gap = "y - sin(phi + t)", phi = "phi + t", v = "cos(phi + t)" }]
         ("y - sin(phi + t)", "t*(y - y)", "first derivatives"),
         ("impact = [{", "impact = { all = [{", "'impact' is a list: write \\[\\[impact\\]\\]"),
         ("-g", "-Gamma", "unknown variable 'Gamma'"),
+        (
+            '"0.1"',
+            '"pi/9"',
+            "g: not a number: 'pi/9': what has pi in it is written in the formulas",
+        ),
     ],
 )
 def test_a_file_that_is_wrong_is_told_in_a_line(tmp_path, old, new, reason):
@@ -439,6 +444,7 @@ def test_a_file_that_is_wrong_is_told_in_a_line(tmp_path, old, new, reason):
     text = TEXT.replace(old, new, 1) if old else TEXT
     file.write_text(text.replace("}]", "}] }") if "all = " in new else text)
     if not reason:
+        file.write_text("\ufeff" + TEXT, "utf-8")
         assert System.read(file).variables == ("phi", "v")
         return
     with pytest.raises(GrammarError, match=reason) as refused:
