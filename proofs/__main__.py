@@ -29,16 +29,20 @@ has its options and examples; options without a command go to `ledger`.
 """
 
 
-def modules() -> dict[str, str]:
-    """Return for each command that is a module of its own what it says of itself."""
-    texts = {}
+def _files() -> dict[str, Path]:
+    """Return the file of each command that is a module of its own."""
     files = [*_ROOT.glob("*.py"), *_ROOT.glob("*/__main__.py"), *_ROOT.glob("commands/*.py")]
-    for file in sorted(files):
-        source = file.read_text(encoding="utf-8")
-        if 'if __name__ == "__main__":' in source and file != Path(__file__):
-            name = file.parent.name if file.stem == "__main__" else file.stem
-            texts[name] = ast.get_docstring(ast.parse(source)) or ""
-    return texts
+    return {
+        file.parent.name if file.stem == "__main__" else file.stem: file
+        for file in sorted(files)
+        if file != Path(__file__) and 'if __name__ == "__main__":' in file.read_text("utf-8")
+    }
+
+
+def modules() -> dict[str, str]:
+    """Return what each of them says of itself."""
+    trees = {name: ast.parse(file.read_text("utf-8")) for name, file in _files().items()}
+    return {name: ast.get_docstring(tree) or "" for name, tree in trees.items()}
 
 
 def commands() -> dict[str, str]:
@@ -64,8 +68,8 @@ def main(arguments: list[str] | None = None) -> int:
         return 0
     if first.startswith("-"):
         first, rest = "ledger", [first, *rest]
-    if first in modules():  # before the table: the checker needs nothing but Python
-        inner = (_ROOT / "commands" / f"{first}.py").is_file()
+    if file := _files().get(first):  # before the table: the checker needs nothing but Python
+        inner = file.parent.name == "commands"
         return run_command(f"proofs.commands.{first}" if inner else f"proofs.{first}", rest)
     from proofs.commands.groups import GROUPS
     from proofs.shell.runner import run

@@ -7,7 +7,7 @@ exactly one periodic orbit of least period 4 that begins at ...
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from fractions import Fraction
 from typing import Any, Self
@@ -73,6 +73,7 @@ class Map:
         self.functions, self.function = dict(functions), function
         self.box: dict[str, Sequence[Exact]] = {}
         self.effort = EFFORT
+        self._known: dict[tuple[Any, ...], Any] = {}
         try:
             self._kernel = Derivation(self.functions).map(function)
         except (Malformed, Unproved) as error:
@@ -148,13 +149,9 @@ class Map:
         """
         return self._proved(self._cycles(period, box, near))
 
-    def stable(self, longest: int = 8, box: Box | None = None) -> Theorem:
+    def stable(self, longest: int = _LONGEST, box: Box | None = None) -> Theorem:
         """Prove the attracting periodic orbits, up to a period, that points at random come to."""
-        from proofs.methods.fates import attractors, followed
-
-        sampled = self._sampled
-        points = followed(sampled, self.region(box)).points
-        return self._proved(attractors(sampled, points, longest), is_attracting=True)
+        return self._proved(self._followed(longest, box).orbits, is_attracting=True)
 
     def horseshoe(self, box: Box | None = None, longest: int = 2) -> Theorem:
         """Prove a full shift on two symbols, of the map or an iterate; sets are found.
@@ -278,13 +275,17 @@ class Map:
 
         if not isinstance(period, int) or not 1 <= period <= 60:
             raise ValueError(f"a period is a whole number from 1 to 60, not {period!r}")
-        sampled = self._sampled
+        sampled, sides = self._sampled, self.region(box)
         if near:
             starts = as_points([centre_of(box_of(self.variables, state)) for state in near])
-        else:
-            starts = seeds(sampled, self.region(box), int(sampled.starts * period * self._share))
-        sides = self.region(box)
-        return sorted(cycles(sampled, period, starts), key=lambda each: not each.meets(sides))
+            return cycles(sampled, period, starts)
+        count = int(sampled.starts * period * self._share)
+
+        def found() -> list[Any]:
+            orbits = cycles(sampled, period, seeds(sampled, sides, count))
+            return sorted(orbits, key=lambda each: not each.meets(sides))
+
+        return list(self._once((period, count, *sides), found))
 
     def sample(self) -> Any:
         """Return points in floating point, a row each, that others at random come to."""
@@ -296,7 +297,22 @@ class Map:
         """Say what floating point sees points at random come to; nothing of it is proved."""
         from proofs.methods.fates import fates
 
-        return fates(self._sampled, self.region(), _LONGEST)
+        way = self._followed(_LONGEST, None)
+        return fates(self._sampled, self.region(), way, _LONGEST)
+
+    def _followed(self, longest: int, box: Box | None) -> Any:
+        from proofs.methods.fates import followed
+
+        sides = self.region(box)
+        return self._once(
+            ("followed", longest, *sides), lambda: followed(self._sampled, sides, longest)
+        )
+
+    def _once(self, key: tuple[Any, ...], work: Callable[[], Any]) -> Any:
+        """Return what was computed before, in floating point, for another question."""
+        if key not in self._known:
+            self._known[key] = work()
+        return self._known[key]
 
     def region(self, box: Box | None = None) -> list[Range]:
         """Return a box where points are looked for: angles all around, others as given."""
@@ -315,19 +331,19 @@ class Map:
         return [sides.get(each, side) for each, side in zip(self.variables, around, strict=True)]
 
     def _image(self, file: Any, function: str, state: Mapping[str, Ends]) -> Theorem:
-        from proofs.trusted.kernel.enclose import enclosed
+        from proofs.methods.divisions import image_of
         from proofs.trusted.numbers import ceil_text, floor_text
 
         box = box_of(self.variables, state)
         try:
-            values = file.map(function).values(enclosed(box, _BITS))
+            tree, image = image_of(file.map(function), box, _BITS)
         except Unproved as error:
             raise Undecided(str(error)) from None
         bounds = [
             [str(Fraction(floor_text(low, _DIGITS))), str(Fraction(ceil_text(high, _DIGITS)))]
-            for low, high in (value.range for value in values)
+            for low, high in image
         ]
-        witness = {"function": function, "box": list(map(texts, box)), "tree": None}
+        witness = {"function": function, "box": list(map(texts, box)), "tree": tree}
         return theorem_of(file, [file.add("image", {**witness, "bounds": bounds})])
 
 

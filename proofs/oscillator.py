@@ -34,11 +34,11 @@ from proofs.search.steps import Prover
 from proofs.shell import groups
 from proofs.theorem import Theorem
 from proofs.trusted.files import render
-from proofs.trusted.flights import LATEST
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.horseshoe import Horseshoe
 from proofs.trusted.kernel.laps import SlopeRange
 from proofs.trusted.numbers import TURN, Range, show, show_range
+from proofs.trusted.oscillator import LATEST
 from proofs.trusted.paper.s33_restitution.horseshoes import restituting
 from proofs.trusted.parameters import Parameters, Place
 

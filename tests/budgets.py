@@ -20,7 +20,7 @@ ROOT = Path(__file__).parents[1]
 GENERATED = ["docs/api.md", "docs/systems.md"]
 BUDGETS = {
     "proofs": 55_540,
-    "proofs/trusted": 23_050,
+    "proofs/trusted": 23_076,
     "proofs/search, proofs/motion": 8_500,
     "proofs/shell": 1_775,
     "proofs/benchmark": 2_005,
@@ -30,7 +30,7 @@ BUDGETS = {
     "rules outside the kernel": 24,
     "loose modules": 9,  # of the package proofs
     "tracked files": 921,
-    "headline": 7_355,  # lines of the files that run to check reports/horseshoe.json
+    "headline": 7_360,  # lines of the files that run to check reports/horseshoe.json
     "way of H2": 8_585,  # lines of the files that run to prove H2 and to check it
     "way of H2, files": 53,
 }

@@ -13,8 +13,8 @@ from pathlib import Path
 import pytest
 
 from proofs.shell.screen import Decided, in_a_line
+from proofs.trusted.kernel.differential import Avoids
 from proofs.trusted.kernel.laps import SlopeRange
-from proofs.trusted.slopes import Avoids
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import premises
 

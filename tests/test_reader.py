@@ -34,10 +34,10 @@ So the differential equation | M1 M5
 Each equation stands | -
 f(φ) is the phase | -
 To enclose a zero | -
-For all launches | rule:first-impact
-- at launch g | rule:first-impact
-- on a piece of time | rule:first-impact
-- in the window | rule:first-impact
+For all launches | rule:avoids
+- at launch g | rule:avoids
+- on a piece of time | rule:avoids
+- in the window | rule:avoids
 Everything is evaluated | -
 A phase at which | -
 Differentiating the equation | rule:slopes

@@ -15,13 +15,14 @@ from intervals import Undecided
 from intervals.rounding import float_down, float_up
 from proofs.benchmark.peers import Range, arithmetic
 from proofs.benchmark.slopes import ETA, MONOTONE, NU, Work, bounds, first_impact
-from proofs.motion.covering import cover_by
 from proofs.motion.marching import march
 from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
 from proofs.motion.witness import HORIZON, FlightBox, Seen, locate
+from proofs.motion.witness import march as impacts
 from proofs.search.image import Image, image
 from proofs.trusted.kernel.enclose import enclosed
+from proofs.trusted.numbers import COVER_BITS
 from proofs.trusted.oscillator import PlasticMap
 
 SYSTEM = System(ETA, NU)
@@ -78,7 +79,7 @@ def _opened(low: float, high: float) -> tuple[float, float]:
 
 def work(domain: Range, boxes: int) -> Work:
     """Return the work of one domain, on times before every impact that the lemmas find."""
-    (seen,) = cover_by(_flights(domain))
+    seen = impacts(_flights(domain), COVER_BITS)
     map_ = PlasticMap(SYSTEM.place)
     low, high = domain
     cuts = [float_down(low), *np.linspace(float(low), float(high), boxes + 1)[1:-1], float_up(high)]

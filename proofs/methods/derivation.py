@@ -35,13 +35,18 @@ class Derivation:
         """Return a function as the checker reads it."""
         return self.context.functions[name]
 
-    def add(self, rule: str, witness: Mapping[str, Any]) -> str:
-        """Add a step that its rule concludes, and return its name; raises Unproved otherwise."""
-        return self.record(rule, witness, concluded(rule, witness, self.context))
+    def add(self, rule: str, witness: Mapping[str, Any], kind: str = "") -> str:
+        """Add a step that its rule concludes, and return its name; raises Unproved otherwise.
 
-    def record(self, rule: str, witness: Mapping[str, Any], conclusion: Conclusion) -> str:
+        kind: how the name begins, if not as the rule's.
+        """
+        return self.record(rule, witness, concluded(rule, witness, self.context), kind)
+
+    def record(
+        self, rule: str, witness: Mapping[str, Any], conclusion: Conclusion, kind: str = ""
+    ) -> str:
         """Add a step with what its rule concludes, and return its name."""
-        kind = rule.removeprefix("formula-")
+        kind = kind or rule.removeprefix("formula-")
         name = f"{kind}-{1 + sum(x['rule'] == rule for x in self.steps.values())}"
         self.steps[name] = {"rule": rule, "witness": dict(witness)}
         self.known[name] = conclusion

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from fractions import Fraction
 from itertools import islice
 from typing import Any
 
-from proofs.methods.formulas import Tree
+from proofs.methods.formulas import Tree, shares, subdivide
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.covers import LocalMap
-from proofs.trusted.kernel.enclose import Box, Differentiable, attempts, enclosed
+from proofs.trusted.kernel.enclose import Box, Differentiable, attempts, enclosed, mean_value_form
 from proofs.trusted.kernel.flow import Flow
+from proofs.trusted.kernel.maps import Map
 
 _BITS = 64
+_HALVINGS = 6  # of a box for its image
 _STRIPS, _LEAST = 16, Fraction(1, 2**20)
 
 
@@ -48,6 +51,32 @@ def _scale(map_: Differentiable, box: Box, strips: int) -> Box:
         widths = [(b - a) / whole for (a, b), whole in zip(ranges, sides, strict=True) if whole]
         units.append((Fraction(0), side / max(*widths, _LEAST)))
     return tuple(units)
+
+
+def image_of(map_: Map, box: Box, bits: int) -> tuple[Tree, Box]:
+    """Return a tree of parts of a box, and bounds of the values on all of them.
+
+    A box of two and more sides, and of a flow, has fewer parts a side. Raises Unproved.
+    """
+    wide, images = sum(low < high for low, high in box), list[list[Enclosure]]()
+    least = Fraction(1, 2 ** (0 if isinstance(map_, Flow) else _HALVINGS // max(wide, 1)))
+
+    def is_small(part: Box) -> bool:
+        if max(shares(part, box), default=0) > least:
+            return False
+        images.append(_sharp(map_, enclosed(part, bits)))
+        return True
+
+    tree = subdivide(box, is_small)
+    ranges = [[value.range for value in values] for values in zip(*images, strict=True)]
+    return tree, tuple((min(a for a, _ in each), max(b for _, b in each)) for each in ranges)
+
+
+def _sharp(map_: Map, x: list[Enclosure]) -> list[Enclosure]:
+    values = map_.values(x)
+    with suppress(Unproved):
+        values = list(map(Enclosure.meet, values, mean_value_form(map_, x)))
+    return values
 
 
 def part_of_tree(tree: Tree, box: Box) -> tuple[Tree, list[Box]]:

@@ -19,16 +19,20 @@ _ANGLES = (("2*pi", 2 * np.pi), ("1", 1.0))  # periods that a variable may have,
 
 
 class Followed(NamedTuple):
-    """Where points at random are after many steps, a column each, and how many ended, and why."""
+    """Where points at random are after many steps, a column each, and how many ended, and why.
+
+    orbits: those attracting ones, up to a period, that they come to.
+    """
 
     points: Floats
     ends: Counter[str]
     steps: int
+    orbits: list[Cycle]
 
 
 @np.errstate(all="ignore")
-def followed(sampled: Sampled, box: Sequence[Range]) -> Followed:
-    """Follow points at random in a box."""
+def followed(sampled: Sampled, box: Sequence[Range], longest: int) -> Followed:
+    """Follow points at random in a box, and look at periods up to the longest."""
     x, ends = seeds(sampled, box, _FOLLOWED, 0)[:, :_FOLLOWED], Counter[str]()
     steps = _BRIEFLY if sampled.has_flows else _SETTLING
     for _ in range(steps):
@@ -36,7 +40,7 @@ def followed(sampled: Sampled, box: Sequence[Range]) -> Followed:
         goes_on = np.isfinite(after).all(axis=0) & (np.abs(after) < _FAR).all(axis=0)
         ends.update(_end(sampled, point[:, None]) for point in x.T[~goes_on])
         x = after[:, goes_on]
-    return Followed(x, ends, steps)
+    return Followed(x, ends, steps, _attractors(sampled, x, longest))
 
 
 def _end(sampled: Sampled, x: Floats) -> str:
@@ -49,7 +53,7 @@ def _end(sampled: Sampled, x: Floats) -> str:
 
 
 @np.errstate(all="ignore")
-def attractors(sampled: Sampled, x: Floats, longest: int) -> list[Cycle]:
+def _attractors(sampled: Sampled, x: Floats, longest: int) -> list[Cycle]:
     """Return the attracting periodic orbits, up to a period, that settled points come to."""
     found: list[Cycle] = []
     after = x
@@ -64,10 +68,9 @@ def attractors(sampled: Sampled, x: Floats, longest: int) -> list[Cycle]:
 
 
 @np.errstate(all="ignore")
-def fates(sampled: Sampled, box: Sequence[Range], longest: int) -> list[str]:
-    """Say what becomes of points at random in a box."""
-    points, ends, steps = followed(sampled, box)
-    orbits = attractors(sampled, points, longest)
+def fates(sampled: Sampled, box: Sequence[Range], way: Followed, longest: int) -> list[str]:
+    """Say what becomes of points at random in a box, which were followed."""
+    points, ends, steps, orbits = way
     place = ", ".join(
         f"{name} in [{float(low):.6g}, {float(high):.6g}]"
         for name, (low, high) in zip(sampled.map.variables, box, strict=True)

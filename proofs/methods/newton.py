@@ -23,6 +23,7 @@ from proofs.trusted.numbers import Range
 _FAR = 1e6  # where points are lost
 _STEPS, _NEAR, _STILL = 12, 1e-9, 1e-13  # of Newton's method
 _SAME = 1e-6  # the distance of points that are one
+_ALIKE = 9  # decimal places in which most starts agree with others
 _BITS = 160  # of boxes around points
 _RADII = ("1/1000000000", "1/100000000000", "1/10000000", "1/100000")  # of boxes around points
 _FIRST, _MORE, _INFLATIONS = Fraction(1, 10**6), 1.3, 12  # of boxes where parameters have ranges
@@ -88,7 +89,9 @@ def _distinct(sampled: Sampled, period: int, starts: Floats) -> list[Cycle]:
     """Return each orbit once, from its first point in lexicographic order."""
     result: list[Cycle] = []
     seen: Floats = np.empty((0, len(starts)))
-    for start in sampled.reduced(starts).T:
+    starts = sampled.reduced(starts)
+    _, places = np.unique(np.round(starts, _ALIKE), axis=1, return_index=True)
+    for start in starts.T[np.sort(places)]:
         if (distance(sampled, start, seen) < _SAME).any():
             continue
         orbit = [start]

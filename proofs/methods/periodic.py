@@ -1,28 +1,35 @@
 """All periodic orbits of a formula in a box, concluded by the checker's rule `periodic-orbits`.
 
-The rule searches the box for orbits that a witness does not list. The witness comes from the same
-search: with nothing listed it leaves small tubes, and Newton's method leads from each to an orbit.
+The rule searches the box for orbits that a witness does not list. The witness comes from Newton's
+method in floating point; where that misses some, from the same search: with nothing listed it
+leaves small tubes, and Newton's method leads from each to an orbit.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import islice
+from typing import cast
 
 from intervals import Undecided
 from proofs.methods.derivation import Derivation
 from proofs.methods.formulas import dot, inverse
 from proofs.methods.grammar import typed
 from proofs.methods.lemmas import middles, undecided, written
+from proofs.methods.newton import cycles, seeds
+from proofs.methods.sampling import Sampled
 from proofs.trusted.certificate import texts
-from proofs.trusted.kernel.arithmetic import Enclosure
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.covers import Rows, images
 from proofs.trusted.kernel.enclose import enclosed, point_box
 from proofs.trusted.kernel.formulas import Formulas
 from proofs.trusted.kernel.periodic import Closing, Search
 from proofs.trusted.numbers import Range, show, within
 
+_STARTS = 400  # points at random for each period
 _SMALLEST = 2.0**-24  # side of a tube from which Newton's method begins, as a part of the box's
 _MOST_TUBES = 50_000
 _STEPS, _BITS = 30, 160  # of Newton's method
@@ -43,21 +50,60 @@ def prove_all_orbits(file: Derivation, function: str, period: int, box: Sequence
         raise Undecided("all orbits are found for formulas without angles and ranges alone")
     if period < 1:
         raise ValueError("a period is at least 1")
-    orbits: dict[Point, tuple[Point, int]] = {}
+    orbits = Orbits(file, function, period, tuple(box))
+    with suppress(Unproved, Undecided):
+        for start, n in _seen(formula, period, box):
+            orbits.add(start, n)
+        return orbits.prove()
     with undecided():
         tubes = Search(formula, tuple(box), period, ()).open_tubes(_SMALLEST)
         for tube in islice(tubes, _MOST_TUBES):
-            fixed, _ = _fixed(formula, period, middles(tube[0]))
-            orbit = [middles(x) for x in images(formula, _precise(fixed), period)]
-            names = [tuple(round(x, _SAME) for x in point) for point in orbit]
-            _require_no_edge(formula, orbit, box)
-            if all(_lies_in(point, box) for point in orbit):
-                orbits[min(names)] = orbit[names.index(min(names))], len(set(names))
+            orbits.add(middles(tube[0]), period)
         if next(tubes, None):
             raise Undecided(f"{_MOST_TUBES} parts of the box may hold periodic orbits")
-        listed = [_witness(formula, *orbits[name]) for name in sorted(orbits)]
-        witness = {"function": function, "period": str(period), "box": written(tuple(box))}
-        return file.add("periodic-orbits", {**witness, "radius": str(_RADIUS), "orbits": listed})
+        return orbits.prove()
+
+
+def _seen(formula: Formulas, period: int, box: Sequence[Range]) -> Iterator[tuple[Point, int]]:
+    """Yield points to which Newton's method leads in floating point, and their least periods."""
+    sampled = Sampled(formula)
+    for n in (n for n in range(1, period + 1) if period % n == 0):
+        for cycle in cycles(sampled, n, seeds(sampled, box, _STARTS * n)):
+            yield tuple(map(Fraction, cycle.points[0].tolist())), n
+
+
+@dataclass
+class Orbits:
+    """Orbits in a box whose period divides one: as the rule reads them, by their rounded points."""
+
+    file: Derivation
+    function: str
+    period: int
+    box: tuple[Range, ...]
+    listed: dict[Point, dict[str, object]] = field(default_factory=dict)
+
+    def add(self, start: Point, n: int) -> None:
+        """Add the orbit of a period to which Newton's method leads, if it is in the box.
+
+        Raises Undecided where it leads to none, or to one at an edge.
+        """
+        formula = cast(Formulas, self.file.map(self.function))
+        point, matrix = _fixed(formula, n, start)
+        orbit = [middles(x) for x in images(formula, _precise(point), n)]
+        _require_no_edge(formula, orbit, self.box)
+        names = {tuple(round(x, _SAME) for x in each) for each in orbit}
+        if len(names) < n:
+            self.add(point, len(names))
+        elif all(_lies_in(each, self.box) for each in orbit):
+            rows = list(map(texts, matrix))
+            self.listed[min(names)] = {"point": texts(point), "period": str(n), "matrix": rows}
+
+    def prove(self) -> str:
+        """Add the step that there are no others; raises Unproved."""
+        witness = {"function": self.function, "period": str(self.period), "box": written(self.box)}
+        orbits = [self.listed[name] for name in sorted(self.listed)]
+        numbers = {"radius": str(_RADIUS), "orbits": orbits}
+        return self.file.add("periodic-orbits", {**witness, **numbers})
 
 
 def _require_no_edge(formula: Formulas, orbit: Sequence[Point], box: Sequence[Range]) -> None:
@@ -96,9 +142,3 @@ def _fixed(formula: Formulas, period: int, start: Point) -> tuple[Point, Rows]:
             return point, matrix
     place = ", ".join(f"{float(x):.9g}" for x in start)
     raise Undecided(f"whether there is a periodic point near ({place})")
-
-
-def _witness(formula: Formulas, near: Point, period: int) -> dict[str, object]:
-    """Return an orbit of a least period as the rule reads it."""
-    point, matrix = _fixed(formula, period, near)
-    return {"point": texts(point), "period": str(period), "matrix": list(map(texts, matrix))}

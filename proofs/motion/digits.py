@@ -8,7 +8,7 @@ from typing import TypeVar
 
 from intervals.errors import DomainError, Undecided
 from proofs.trusted.flights import lifted, whole_turns
-from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.numbers import Range
 
 MOST_DIGITS = 1000  # that can be asked for
@@ -31,6 +31,11 @@ def around(value: Fraction, bits: int) -> Range:
     unit = Fraction(1, 2**bits)
     centre = round(value / unit) * unit
     return centre - unit, centre + unit
+
+
+def middle(x: Enclosure) -> Fraction:
+    """Return about the number that is enclosed."""
+    return Fraction(x.lo + x.hi, 2 << x.bits)
 
 
 def to_digits(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -16,7 +17,6 @@ from proofs.motion.many import float_clock, float_launch, next_impacts
 from proofs.motion.system import System
 from proofs.motion.witness import HORIZON
 from proofs.trusted.equations import Clock, Launch, clock, gap, launch, slope
-from proofs.trusted.flights import FirstImpact
 from proofs.trusted.numbers import Range
 from proofs.trusted.parameters import Parameters
 
@@ -36,7 +36,8 @@ class ImpactMap:
     """f on I0 and I1 for `proofs.methods.orbits`: the horseshoe `of`, proved elsewhere.
 
     On I_j, f(phi) is phi + t - 2 pi turns[j], t the time of the first impact, and covers I.
-    parts: transversal first impacts on all of I0 and I1, rounded outward to binary64, in order.
+    windows: of the transversal first impacts on the parts, in order, of I0 and I1, rounded outward
+    to binary64.
 
     Below t is the time from a phase x to y, next to f(x), and t* that of the first impact after x.
     The gap falls all over the window of the part of x, and t* is its one zero there. Between times
@@ -47,7 +48,7 @@ class ImpactMap:
 
     of: Parameters
     expansion: Fraction
-    parts: tuple[FirstImpact, ...]
+    windows: Mapping[Range, Range]
     turns: tuple[int, int]
 
     @property
@@ -63,7 +64,7 @@ class ImpactMap:
     @cached_property
     def _ends(self) -> list[Range]:
         """The phases of the parts."""
-        return [part.motion.phases for part in self.parts]
+        return list(self.windows)
 
     @cached_property
     def _seen(self) -> tuple[Floats, Floats]:
@@ -91,7 +92,7 @@ class ImpactMap:
         index = bisect(self._ends, x.inf, key=lambda ends: ends[0]) - 1
         if index < 0 or x.sup > self._ends[index][1]:
             raise ValueError("a phase outside I0 and I1")
-        return Interval(*self.parts[index].windows[0], precision=x.precision)
+        return Interval(*self.windows[self._ends[index]], precision=x.precision)
 
     def _launch(self, x: Interval) -> Launch:
         """Return the launches at x."""

@@ -6,15 +6,17 @@ import math
 from fractions import Fraction
 
 from intervals import Undecided
-from proofs.motion.brackets import impact_time, middle
-from proofs.motion.digits import around
+from proofs.motion.digits import around, middle
 from proofs.motion.system import System
 from proofs.motion.witness import HORIZON, FlightBox, NoImpact, locate
 from proofs.trusted.certificate import texts
 from proofs.trusted.equations import launch_acceleration
 from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import rational
+from proofs.trusted.kernel.enclose import enclosed
+from proofs.trusted.kernel.returns import Impact, Launches
 from proofs.trusted.numbers import Range
+from proofs.trusted.oscillator import PlasticMap
 
 NEWTON = 6  # steps
 _ROOM = 40  # bits
@@ -50,11 +52,15 @@ def separation(system: System, bits: int, horizon: Fraction = HORIZON) -> dict[s
     """
     if system.sticking_arc == "none":
         raise Undecided("the mass sticks nowhere: there is no separation phase")
-    phase = separation_phase(system, bits)
-    at = system.place
-    seen = locate(FlightBox.plastic(at, phase, separating=True), horizon=horizon)
-    time = impact_time(seen.flights, seen.windows[0], bits - 10)
-    return {"phase": texts(phase), "times": texts(seen.times), "time": texts(time)}
+    phase, f = separation_phase(system, bits), PlasticMap(system.place)
+    seen = locate(FlightBox.plastic(f.at, phase, separating=True), horizon=horizon)
+    launches = Launches(f, *(enclosed(box, bits + _ROOM) for box in ((phase,), f.ranges)))
+    time = middle(Impact.sharp(launches, seen.windows[0]).time)
+    return {
+        "phase": texts(phase),
+        "times": texts(seen.times),
+        "time": texts(around(time, bits - 10)),
+    }
 
 
 def zero(motion: Motion, time: Fraction, order: int) -> Fraction:

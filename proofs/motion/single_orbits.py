@@ -14,10 +14,11 @@ from typing import Any
 from intervals import Interval, Undecided
 from proofs.motion.digits import phase_after
 from proofs.motion.system import System
-from proofs.motion.witness import FlightBox, march
 from proofs.trusted.equations import Launch, launch, launch_acceleration, sincos
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.enclose import enclosed
 from proofs.trusted.numbers import COVER_BITS, Range
+from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.paper.s4_single.orbits import records
 
 _ATTEMPTS = 6
@@ -183,23 +184,20 @@ def _known_records(eta: Fraction, most: int) -> frozenset[int]:
 
 
 def _by_flight(system: System, n: int, phase: Range) -> tuple[bool | None, str]:
-    """Decide by the first impact of the flight, in ever smaller steps of time."""
+    """Decide by the first impact of the flight, in ever more bits."""
     period, reason = Interval.pi(precision=128) * (2 * n), "the flight is too long to follow"
     if period.sup > _LONGEST:
         return None, reason
-    flights = FlightBox.plastic(system.place, phase)
+    f = PlasticMap(system.place, period.sup + 1)
     for attempt in range(_ATTEMPTS):
-        finest = Fraction(1, 2 ** (3 + 3 * attempt))
         try:
-            seen = march(flights, COVER_BITS * (attempt + 1), period.sup + 1, finest)
-            proved = seen.proved()
-        except (Undecided, Unproved) as failure:
+            begin, end = f.window(enclosed((phase,), COVER_BITS * (attempt + 1)))
+        except Unproved as failure:
             reason = str(failure)
             continue
-        begin, end = proved.windows[-1]
         if end < period.inf:
             return False, "an earlier impact"
-        if proved.transversal and begin < period.inf and period.sup < end:
+        if begin < period.inf and period.sup < end:
             return True, "the first impact"
         reason = "the first impact is not told from one after n periods"
     return None, reason

@@ -10,6 +10,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
 from typing import NamedTuple
 
 from intervals.errors import DomainError, Undecided
@@ -20,10 +21,10 @@ from proofs.trusted.equations import (
     launch,
     launch_acceleration,
 )
-from proofs.trusted.flights import FirstImpact, Motion, bits_for_pieces
+from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.gaps import Gap, falls, first_windows, stays_up
-from proofs.trusted.numbers import COVER_BITS, Range
+from proofs.trusted.numbers import COVER_BITS, Range, rounded_bits
 from proofs.trusted.parameters import Place
 
 HORIZON = Fraction(1000)
@@ -132,7 +133,7 @@ def name_of(phases: Range) -> str:
 
 
 class Seen(NamedTuple):
-    """What may be proved of a first impact: as rule `first-impact` takes and concludes it.
+    """What may be proved of a first impact: as `first_windows` takes and concludes it.
 
     times: 0 < t_1 < ... < t_n; bits: of the numbers that saw it.
     """
@@ -148,18 +149,18 @@ class Seen(NamedTuple):
         """The times up to the first window: gap > 0 between them."""
         return up_to(self.windows[0][0], self.times)
 
-    def proved(self) -> FirstImpact:
-        """Prove it as the rule does, for the launches that leave after plastic impacts.
-
-        Raises Unproved where less is proved than is seen.
-        """
+    def proved_windows(self) -> tuple[Range, ...]:
+        """Prove them by the checker's lemmas, for the launches that leave after plastic impacts."""
         eta, nu, _ = self.flights.sides
         bits = max(self.bits, bits_for_pieces(self.times))
         motion = Motion(Place(eta, nu), self.flights.phases, bits)
-        windows, transversal = first_windows(motion.gap_of, self.times, *self.flights.orders)
-        if self.transversal and not transversal:
-            raise Unproved("the first impact is not proved transversal")
-        return FirstImpact(motion.at, motion, windows, transversal)
+        return first_windows(motion.gap_of, self.times, *self.flights.orders)[0]
+
+
+def bits_for_pieces(times: Sequence[Fraction]) -> int:
+    """Return the precision for pieces of times: gaps are of the order w^2 in a piece of width w."""
+    shortest = min(now - before for before, now in pairwise((_NOW, *times)))
+    return rounded_bits(COVER_BITS + 2 * (1 / shortest).__ceil__().bit_length())
 
 
 def up_to(last: Fraction, times: Sequence[Fraction]) -> list[Fraction]:

@@ -151,15 +151,16 @@ def _covering(box: Place, sets: Sets) -> Steps:
     eta, nu = (each[0] for each in corners(box))
     target, names, images = (sets.phases[0][0], sets.phases[-1][1]), [], []
     for phases, turns, latest in zip(*sets, strict=True):
-        flights = made.impacts(phases, latest)
-        witness = {"flights": [name for name, _ in flights], "turn": str(turns)}
-        names.append(made.add("branch", witness))
-        for phase, (_, times) in zip(phases, (flights[0], flights[-1]), strict=True):
+        windows = made.windows(phases, latest)
+        cuts = texts([phases[0], *(high for _, high in windows)])
+        names.append(made.add("branch", {"cuts": cuts, "turn": str(turns)}))
+        first, *_, last = [*windows.values()] * 2
+        for phase, (begin, end) in zip(phases, (first, last), strict=True):
             low, high = lifted((target[0] - phase, target[1] - phase), turns, BITS)
-            early = min(low // _UNIT * _UNIT, times[-1])
-            late = max(-(-high // _UNIT) * _UNIT, times[-2])
+            early = min(low // _UNIT * _UNIT, end)
+            late = max(-(-high // _UNIT) * _UNIT, begin)
             is_below = float_gap(box.side, eta, nu, float(phase), float(early)) < 0
-            time = (times[-2], early) if is_below else (late, times[-1])
+            time = (begin, early) if is_below else (late, end)
             images.append({"phase": str(phase), "time": texts(time)})
     graph = {"states": [texts(target)], "weights": ["1"], "growth": str(len(names))}
     made.add("covering-graph", {"branches": names, "images": images, **graph})

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -9,16 +10,21 @@ from itertools import product
 from typing import Any
 
 from intervals import Undecided
-from proofs.motion.brackets import impact_times
+from proofs.motion.covering import halves
 from proofs.motion.witness import BLIND, FlightBox, march
-from proofs.trusted.certificate import SCHEMA, texts
+from proofs.trusted.certificate import SCHEMA
 from proofs.trusted.equations import launch_acceleration
 from proofs.trusted.files import box_to_json, render
 from proofs.trusted.flights import Motion
-from proofs.trusted.kernel.gaps import falls
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.enclose import enclosed
+from proofs.trusted.kernel.gaps import Gap, falls
 from proofs.trusted.numbers import COVER_BITS, Range
+from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.parameters import Place
+from proofs.trusted.windows import BITS
 
+_NOT_SEEN = "no transversal first impact is seen"
 _HALVINGS = 1  # of phases whose flights are too different
 _FINEST = Fraction(1, 8), Fraction(1, 64), Fraction(1, 512)  # steps of time
 _LATER = Fraction(11, 2)  # than the last impact that is seen, at most
@@ -43,26 +49,22 @@ class Steps:
         self.steps[name] = {"rule": rule, "witness": witness}
         return name
 
-    def impact(self, phases: Range, latest: float) -> tuple[str, list[Fraction]]:
-        """Add the first impacts after launches in `phases`; return the step and its times.
-
-        latest: about when the last of them comes.
-        """
-        times = times_for(FlightBox.plastic(self.box, phases), latest)
-        return self.add("first-impact", {"phases": texts(phases), "times": texts(times)}), times
-
-    def impacts(
+    def windows(
         self, phases: Range, latest: float, halvings: int = _HALVINGS
-    ) -> list[tuple[str, list[Fraction]]]:
-        """Add the same in parts where that must be, in order."""
+    ) -> dict[Range, Range]:
+        """Return the windows of the first impacts after launches in parts of `phases`, in order.
+
+        latest: about when the last of them comes. Raises Undecided where they are not proved
+        transversal.
+        """
+        function = PlasticMap(self.box, Fraction(latest) + _LATER)
         try:
-            return [self.impact(phases, latest)]
-        except Undecided:
+            return {phases: function.window(enclosed((phases,), BITS))}
+        except Unproved:
             if not halvings:
-                raise
-        low, high = phases
-        parts = (low, (low + high) / 2), ((low + high) / 2, high)
-        return [each for part in parts for each in self.impacts(part, latest, halvings - 1)]
+                raise Undecided(_NOT_SEEN) from None
+        one, two = (self.windows(part, latest, halvings - 1) for part in halves(phases))
+        return one | two
 
     def certificate(self) -> str:
         """Return the certificate's text."""
@@ -78,7 +80,7 @@ class Steps:
 
 
 def times_for(flights: FlightBox, latest: float) -> list[Fraction]:
-    """Return times for rule `first-impact`, of flights that end at about `latest` at most.
+    """Return times for `first_windows`, of flights that end at about `latest` at most.
 
     Raises Undecided where none seem to prove a transversal first impact.
     """
@@ -94,7 +96,21 @@ def times_for(flights: FlightBox, latest: float) -> list[Fraction]:
                 soon = last + (end - begin) * share
                 if falls(gap_of, (begin, soon), _FALLS):
                     return [*seen.times[:-1], soon]
-    raise Undecided("no transversal first impact is seen")
+    raise Undecided(_NOT_SEEN)
+
+
+def impact_times(gap_of: Gap, window: Range, halvings: int) -> Range:
+    """Bracket the impacts of all launches of a set, as the signs of their gaps allow.
+
+    To multiples of 2^-halvings of the window: where the gap is > 0 for all launches no zero lies
+    before, where it is < 0 none lies after.
+    """
+    (low, high), count = window, 2**halvings
+    unit = (high - low) / count
+    inner = range(1, count)
+    first = bisect(inner, False, key=lambda k: gap_of((low + k * unit,) * 2, 0).lo <= 0)
+    last = bisect(inner, False, key=lambda k: gap_of((high - k * unit,) * 2, 0).hi >= 0)
+    return low + first * unit, high - last * unit
 
 
 def bracket(box: Place, phases: Range, times: list[Fraction]) -> Range:

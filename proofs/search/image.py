@@ -11,8 +11,8 @@ from fractions import Fraction
 
 from intervals import Undecided
 from proofs.methods.extremes import extremes
-from proofs.motion.covering import bits_needed, cover_by, halves, steps_for
-from proofs.motion.digits import bits_for, phase_after, to_digits
+from proofs.motion.covering import bits_needed, halves, steps_for
+from proofs.motion.digits import phase_after, to_digits
 from proofs.motion.landing import separation, separation_phase
 from proofs.motion.system import System
 from proofs.motion.witness import (
@@ -28,8 +28,8 @@ from proofs.search.evidence import FAILED, Proved
 from proofs.search.steps import Prover
 from proofs.trusted.equations import launch_acceleration
 from proofs.trusted.flights import Motion
-from proofs.trusted.kernel.arithmetic import Enclosure
 from proofs.trusted.kernel.enclose import enclosed
+from proofs.trusted.kernel.firstzero import NoFirstZero
 from proofs.trusted.numbers import COVER_BITS, Range, hull
 
 _NOT_CUT = (
@@ -156,33 +156,38 @@ def _dwell(phases: Range, leave: Range, bits: int) -> Range:
 
 def _over_interval(prover: Prover, phases: Range) -> Image:
     """Enclose the ranges of t, phi + t and f' by `extremes`; derivatives f' - 1, f' and f''."""
-    parts = cover_by(prover.flights(phases), horizon=prover.horizon)
-    places = max((1 / part.windows[0][0]).__ceil__().bit_length() - 1 for part in parts)
-    enough = bits_for(prover.digits) + 3 * places  # a flight of time t rises by some t^3
-    bits = max(enough, *(part.bits for part in parts)) + _ROOM
     f = prover.impact_map
-    ends = [part.flights.phases[0] for part in parts] + [phases[1]]
 
-    def over(low: Fraction, high: Fraction) -> list[Enclosure]:
-        return enclosed(((low, high),), bits)
+    def bounds_at(x: Fraction, bits: int) -> tuple[Range, Range]:
+        point = enclosed(((x, x),), bits)
+        try:
+            return f.impact(point).range, f.jacobian(point)[0][0].range
+        except NoFirstZero as error:
+            raise NoImpact(str(error)) from None
 
-    def time(x: Fraction) -> Range:
-        return f.impact(over(x, x)).range
+    def at_ends(bits: int) -> tuple[int, list[Range]]:
+        more = bits + _ROOM
+        return more, [each for end in phases for each in bounds_at(end, more)]
+
+    bits, _ = to_digits(prover.digits, at_ends, lambda answer: answer[1], final=(NoImpact,))
 
     def image_at(x: Fraction) -> Range:
-        return (f.impact(over(x, x)) + x).range
+        low, high = bounds_at(x, bits)[0]
+        return x + low, x + high
 
     def slope(low: Fraction, high: Fraction) -> Range:
-        return f.jacobian(over(low, high))[0][0].range
-
-    def faster(low: Fraction, high: Fraction) -> Range:
-        return (f.jacobian(over(low, high))[0][0] - 1).range
+        return f.jacobian(enclosed(((low, high),), bits))[0][0].range
 
     def bend(low: Fraction, high: Fraction) -> Range:
-        return f.bend(over(low, high)).range
+        return f.bend(enclosed(((low, high),), bits)).range
 
-    slopes = extremes(lambda x: slope(x, x), bend, ends, most=_PIECES)
-    flights = extremes(time, faster, ends, most=_PIECES)
+    def faster(low: Fraction, high: Fraction) -> Range:
+        least, most = slope(low, high)
+        return least - 1, most - 1
+
+    ends = prover.parts(phases, lambda part: bool(slope(*part)), "grazing")
+    slopes = extremes(lambda x: bounds_at(x, bits)[1], bend, ends, most=_PIECES)
+    flights = extremes(lambda x: bounds_at(x, bits)[0], faster, ends, most=_PIECES)
     images = extremes(image_at, slope, ends, most=_PIECES)
     arrival = (images.minimum[0], images.maximum[1])
 
@@ -223,7 +228,7 @@ def _windows(flights: FlightBox, horizon: Fraction) -> tuple[Range, ...]:
     finest = max(steps_for(flights.phases), _COARSE)
 
     def at_precision(bits: int) -> tuple[Range, ...]:
-        return march(flights, bits, horizon, finest).proved().windows
+        return march(flights, bits, horizon, finest).proved_windows()
 
     try:
         return at_precision(COVER_BITS)

@@ -18,7 +18,6 @@ from proofs.search.evidence import FAILED, Tell
 from proofs.search.s31_horseshoe import prove
 from proofs.search.shifts import pairs, pieces
 from proofs.search.steps import Prover
-from proofs.trusted.flights import FirstImpact
 from proofs.trusted.kernel.enclose import enclosed
 from proofs.trusted.kernel.images import image_arc
 from proofs.trusted.numbers import Range
@@ -61,19 +60,18 @@ def _full_shift(of: Parameters, left: Range, right: Range) -> ImpactMap:
     arcs = [image_arc(part) for _, part in steps]
     if not (shift.full and all(arc.is_interval for arc in arcs)):
         raise Undecided("; ".join(arc.brief for arc in arcs))
-    turns, parts = list[int](), list[FirstImpact]()
+    turns, windows = list[int](), dict[Range, Range]()
     for domain, (_, slope_range) in zip((left, right), steps, strict=True):
         around = Fraction(float_down(domain[0])), Fraction(float_up(domain[1]))
-        impacts = prover.impacts(around)
+        windows |= prover.windows(around)
         time = prover.impact_map.impact(enclosed((domain[:1] * 2,), prover.bits)).range
         counted = (Interval(*time) + domain[0] - Interval(*slope_range.images[0])) / turn(53)
         count = round(counted.mid)
         if not (counted.contains(count) and counted.wid < 1):
             raise ArithmeticError("an impact is at another phase than it was proved to be")
         turns.append(count)
-        parts += [part for _, part in impacts]
     sets = replace(of, left=left, right=right, interval=(left[0], right[1]))
-    return ImpactMap(sets, shift.expansion, tuple(parts), (turns[0], turns[1]))
+    return ImpactMap(sets, shift.expansion, windows, (turns[0], turns[1]))
 
 
 def of_words(of: ImpactMap, asked: str | int, places: int, tell: Tell) -> list[PeriodicPoint]:

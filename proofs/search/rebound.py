@@ -6,11 +6,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import partial
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from intervals import Undecided
 from intervals.cover import PartsExhausted, cover
-from proofs.methods.derivation import concluded
+from proofs.methods.derivation import Derivation
 from proofs.motion.covering import halves
 from proofs.motion.digits import to_digits
 from proofs.motion.landing import separation_phase
@@ -152,17 +152,16 @@ def _joined(oscillator: Oscillator, parts: Sequence[NextState]) -> Rebound:
 
 def _proved(oscillator: Oscillator, parts: Sequence[NextState]) -> Proved:
     """Prove what F does on each part (rule differential)."""
-    at, steps = oscillator.at, dict[str, dict[str, Any]]()
-    for number, (part, bits, _) in enumerate(parts, 1):
+    proof = Derivation({}, context=Context(oscillator.at))
+    for part, bits, _ in parts:
         witness = {
-            "function": function_of(at),
+            "function": function_of(oscillator.at),
             "box": [texts(side) for side in part.box],
             "turns": [str(part.turns[0])],
             "bits": str(bits),
         }
-        concluded("differential", witness, Context(at))
-        steps[f"differential-{number}"] = {"rule": "differential", "witness": witness}
-    return at, steps, [*steps]
+        proof.add("differential", witness)
+    return oscillator.at, proof.steps, [*proof.steps]
 
 
 def _after_sticking(system: System, plastic: Image) -> Rebound:

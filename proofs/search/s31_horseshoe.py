@@ -22,14 +22,14 @@ from proofs.search.repair import grid, nearest_sets
 from proofs.search.steps import Prover
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.kernel.differential import Differential
+from proofs.trusted.kernel.differential import Avoids, Differential
 from proofs.trusted.kernel.laps import SlopeRange
 from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Phase
 from proofs.trusted.paper import GROUPS
 from proofs.trusted.paper.s31_horseshoe import ROWS
 from proofs.trusted.parameters import Parameters
-from proofs.trusted.slopes import Avoids, Impact
+from proofs.trusted.slopes import Impact
 from proofs.trusted.verdicts import Verdict
 
 _Proved = TypeVar("_Proved")

@@ -65,8 +65,8 @@ class _Run:
         """Prove the first impact transversal on all of a domain, once."""
         if domain not in self.letters:
             turns = InverseBranch(self.prover.system, domain).turns
-            flights = [name for name, _ in self.prover.impacts(domain)]
-            name, branch = self.prover.derive("branch", {"flights": flights, "turn": str(turns)})
+            cuts = [domain[0], *(high for _, high in self.prover.windows(domain))]
+            name, branch = self.prover.derive("branch", {"cuts": texts(cuts), "turn": str(turns)})
             self.letters[domain] = name, Letter(branch)
         return self.letters[domain]
 

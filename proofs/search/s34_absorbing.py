@@ -19,7 +19,7 @@ import numpy as np
 
 from intervals import Undecided
 from proofs.methods.basin import Cutting, Density, Floats, Mesh, Piece, Whole
-from proofs.motion.brackets import middle
+from proofs.motion.digits import middle
 from proofs.motion.landing import short, zero
 from proofs.motion.many import float_clock, float_launch
 from proofs.motion.system import System

@@ -9,8 +9,7 @@ from fractions import Fraction
 from itertools import pairwise
 
 from intervals import Undecided
-from proofs.motion.brackets import middle
-from proofs.motion.digits import phase_after
+from proofs.motion.digits import middle, phase_after
 from proofs.motion.simulate import Impact, next_impact
 from proofs.search.evidence import FAILED, Proof
 from proofs.search.steps import Prover

@@ -15,7 +15,7 @@ from itertools import pairwise
 from types import MappingProxyType
 
 from intervals import Undecided
-from proofs.motion.brackets import middle
+from proofs.motion.digits import middle
 from proofs.motion.landing import NEWTON, short, zero
 from proofs.motion.windows import Candidates
 from proofs.search.evidence import FAILED, Evidence, Proof, search_each

@@ -31,6 +31,7 @@ _MOST = 40  # table periods in the search for examples
 _ORBITS = 12  # and for orbits to show
 _STIFF = Fraction("13.999")  # almost a resonance, 14
 _SOFT = Fraction("-0.03")  # an amplitude at which n = 21 has an earlier impact
+_LATEST = 7  # more than a table period
 _TIMES = 64  # a table period, looked at for an earlier impact
 _HALF = Fraction(1, 2)
 
@@ -60,7 +61,7 @@ class Single:
             n=str(orbit.n),
             phase=texts(phase),
             early=str(_inside(motion, orbit.n)) if early else None,
-            flight=self.prover.impacts(phase)[0][0] if first else None,
+            latest=str(_LATEST * orbit.n) if first else None,
         )
 
     def eta_windows(self, nu: Fraction, low: Fraction) -> str:

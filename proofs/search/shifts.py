@@ -11,16 +11,18 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations, groupby, islice, pairwise
 
-from intervals import Undecided
-from proofs.motion.covering import cover_by
 from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
-from proofs.motion.witness import FlightBox
+from proofs.motion.witness import HORIZON
 from proofs.search.budget import reach
 from proofs.search.orbits import Seen
 from proofs.search.portrait import Check, stretches
 from proofs.search.repair import rounded_slopes
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.differential import BITS
+from proofs.trusted.kernel.enclose import enclosed
 from proofs.trusted.numbers import TURN, Range
+from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.parameters import Parameters
 
 _GRID = 1500  # phases that are looked at
@@ -202,10 +204,10 @@ def _evenly(domain: Range, count: int) -> list[float]:
 
 def _in_one_piece(system: System, sets: Sequence[Range]) -> bool:
     """Whether the first impacts of each set are proved in one piece."""
+    f = PlasticMap(system.place, HORIZON)
     try:
-        at = system.place
-        return all(len(cover_by(FlightBox.plastic(at, each), limit=4)) == 1 for each in sets)
-    except Undecided:
+        return all(f.window(enclosed((each,), BITS)) for each in sets)
+    except Unproved:
         return False
 
 

@@ -6,31 +6,36 @@ flights. So neither mpmath nor numpy is needed.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from proofs.methods.derivation import Derivation, concluded
+from intervals import Undecided
+from intervals.cover import PartsExhausted, cover
+from proofs.methods.derivation import Derivation
 from proofs.methods.extremes import extremes
 from proofs.methods.moran import moran_root
-from proofs.motion.covering import cover_by
+from proofs.motion.covering import halves
 from proofs.motion.system import System
-from proofs.motion.witness import FlightBox, Seen
+from proofs.motion.witness import FlightBox, NoImpact, name_of
 from proofs.search.evidence import Proved, Steps
 from proofs.trusted.certificate import texts
-from proofs.trusted.flights import FirstImpact
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.differential import BITS, Differential
+from proofs.trusted.kernel.differential import BITS, Avoids, Differential, misses
 from proofs.trusted.kernel.enclose import enclosed
+from proofs.trusted.kernel.firstzero import NoFirstZero
 from proofs.trusted.kernel.laps import SlopeRange
 from proofs.trusted.kernel.moran import MoranRoot
 from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import TURN, Range, show_range
 from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.parameters import Parameters, Place
-from proofs.trusted.slopes import Avoids, comes_to
+from proofs.trusted.windows import BITS as WINDOW_BITS
+
+_MOST_PARTS = 400
+_THINNEST, _NO_IMPACT = 2**16, 2**4  # parts of an interval, the other where no impact is seen
 
 
 class Prover(Derivation):
@@ -62,28 +67,57 @@ class Prover(Derivation):
         """It, as witnesses name it."""
         return {"eta": texts(self.at.eta), "nu": texts(self.at.nu)}
 
-    def derive(self, rule: str, witness: dict[str, Any]) -> tuple[str, Any]:
+    def derive(self, rule: str, witness: dict[str, Any], kind: str = "") -> tuple[str, Any]:
         """Add a step; return its name, with what it concludes."""
-        name = self.add(rule, witness)
+        name = self.add(rule, witness, kind)
         return name, self.known[name]
 
     def claimed(self, name: str) -> Proved:
         """Return the steps so far, that one claimed."""
         return self.at, self.steps, [name]
 
-    def add_impact(self, seen: Seen) -> tuple[str, FirstImpact]:
-        """Prove a first impact (rule first-impact)."""
-        phases, times = texts(seen.flights.phases), texts(seen.times)
-        return self.derive("first-impact", {"phases": phases, "times": times})
-
     def flights(self, phases: Range) -> FlightBox:
         """Return all launches of some phases."""
         return FlightBox.plastic(self.at, phases)
 
-    def impacts(self, phases: Range) -> list[tuple[str, FirstImpact]]:
-        """Prove transversal first impacts on parts of an interval, in order."""
-        parts = cover_by(self.flights(phases), horizon=self.horizon)
-        return [self.add_impact(part) for part in parts]
+    def windows(self, phases: Range) -> dict[Range, Range]:
+        """Return the windows of transversal first impacts, on parts of an interval in order."""
+
+        def has_window(part: Range) -> bool:
+            windows[part] = self.impact_map.window(enclosed((part,), WINDOW_BITS))
+            return True
+
+        windows = dict[Range, Range]()
+        self.parts(phases, has_window, "grazing")
+        return windows
+
+    def parts(self, phases: Range, holds: Callable[[Range], bool], obstacle: str) -> list[Fraction]:
+        """Cut an interval until something is proved of f on every part; return its ends, in order.
+
+        Undecided names a phase near which nothing helps, `obstacle` being the likely reason; a part
+        without impact up to the horizon is cut a few times before that is taken for an answer.
+        """
+        width = phases[1] - phases[0]
+
+        def decide(part: Range) -> bool | None:
+            thinnest = _THINNEST
+            failure = Undecided(f"{obstacle} near phase {float(part[0]):.9g}")
+            try:
+                if holds(part):
+                    return True
+            except NoFirstZero as error:
+                thinnest, failure = _NO_IMPACT, NoImpact(str(error))
+            except Unproved as error:
+                failure = Undecided(str(error))
+            if (part[1] - part[0]) * thinnest <= width:
+                raise failure
+            return None
+
+        known = cover([phases], decide, halves, limit=_MOST_PARTS)
+        try:
+            return [phases[0], *(part[1] for part, _ in known)]
+        except PartsExhausted:
+            raise Undecided(f"{_MOST_PARTS} parts of {name_of(phases)} do not suffice") from None
 
     def slopes(self, points: list[Fraction]) -> tuple[str, SlopeRange]:
         """Prove f C^1 on [points[0], points[-1]] and enclose f' there (rule slopes)."""
@@ -100,21 +134,13 @@ class Prover(Derivation):
 
     def avoids(self, phases: Range, target: Range) -> tuple[str, Avoids]:
         """Prove that no phase of `phases` has its first impact in `target` (rule avoids)."""
-
-        def accept(seen: Seen) -> bool:
-            return not any(
-                comes_to(self.at, seen.flights.phases, window, target) for window in seen.windows
-            )
-
-        parts = cover_by(
-            self.flights(phases),
-            accept,
-            obstacle=f"an impact in {show_range(target)} is possible",
-            horizon=self.horizon,
-            limit=400,
+        points = self.parts(
+            phases,
+            lambda part: misses(self.impact_map, part, target),
+            f"an impact in {show_range(target)} is possible",
         )
-        flights = [self.add_impact(part)[0] for part in parts]
-        return self.derive("avoids", {"flights": flights, "target": texts(target)})
+        witness = {"function": self.function, "points": texts(points), "target": texts(target)}
+        return self.derive("avoids", witness)
 
     def point(self, phase: Fraction) -> tuple[str, Differential]:
         """Enclose f and f' at one phase (rule differential)."""
@@ -125,13 +151,7 @@ class Prover(Derivation):
             "turns": [str(image.range[0] // TURN)],
             "bits": str(self.bits),
         }
-        conclusion = concluded("differential", witness, self.context)
-        name = f"point-{1 + sum(name.startswith('point-') for name in self.steps)}"
-        self.steps[name], self.known[name] = (
-            {"rule": "differential", "witness": witness},
-            conclusion,
-        )
-        return name, conclusion
+        return self.derive("differential", witness, "point")
 
     def root(self, ratios: Range) -> tuple[str, MoranRoot]:
         """Bracket the root of r0^s + r1^s = 1 (rule moran-root)."""

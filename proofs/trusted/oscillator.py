@@ -27,8 +27,9 @@ from proofs.trusted.equations import (
 )
 from proofs.trusted.kernel.arithmetic import Dual, Enclosure, pi, rational
 from proofs.trusted.kernel.enclose import Box, Circle, Matrix, centre_of, point_box
-from proofs.trusted.kernel.firstzero import Gap
+from proofs.trusted.kernel.firstzero import FirstZero, Gap
 from proofs.trusted.kernel.returns import ReturnMap
+from proofs.trusted.numbers import Range
 from proofs.trusted.parameters import Place
 
 LATEST = Fraction(10**6)
@@ -211,6 +212,10 @@ class PlasticMap(PaperMap):
         eta, nu = impact.launches.parameters
         start = launch(self.formulas.side, eta, nu, x[0])
         return [[slope(start, clock(eta, impact.time), impact.fall)]]
+
+    def window(self, x: Sequence[Enclosure]) -> Range:
+        """Return times low < high: gap > 0 on (0, low], gap_t < 0 between, gap < 0 at the end."""
+        return FirstZero(self._launches(x), self.gaps[0]).window(self.latest)
 
     def bend(self, x: Sequence[Enclosure]) -> Enclosure:
         """Enclose f'': the derivative of the slope along (phi + s, t + (f' - 1) s)."""

@@ -18,8 +18,6 @@ Rule = Callable[[Context, Reader], Conclusion]
 
 RULES: Mapping[str, str] = MappingProxyType(
     {
-        "first-impact": "flights.first_impact",
-        "avoids": "slopes.avoids",
         "formula-equal": "kernel.values.equal",
         "formula-series": "kernel.values.series",
         "formula-solution": "kernel.solutions.solution",
@@ -29,6 +27,7 @@ RULES: Mapping[str, str] = MappingProxyType(
         "periodic-orbits": "kernel.periodic.periodic_orbits",
         "periodic-orbit": "kernel.cycle.periodic_orbit",
         "image": "kernel.differential.image",
+        "avoids": "kernel.differential.avoids",
         "no-impact": "kernel.outcomes.no_impact",
         "pressed": "kernel.outcomes.pressed",
         "graze": "kernel.outcomes.graze",

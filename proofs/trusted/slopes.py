@@ -1,4 +1,4 @@
-"""The plastic impact map f: its slope and image at a phase, what it avoids."""
+"""The plastic impact map f: its slope and image at a phase."""
 
 from __future__ import annotations
 
@@ -7,14 +7,10 @@ from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 
-from proofs.trusted.certificate import Reader
-from proofs.trusted.flights import FirstImpact, read_phases
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.differential import Differential
-from proofs.trusted.kernel.laps import Gap, meets
-from proofs.trusted.numbers import Phase, Phases, Range, between, show, show_range, within
+from proofs.trusted.numbers import Phase, Range, between, show
 from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.parameters import Place
 
@@ -53,53 +49,3 @@ def impacts(found: Iterable[Conclusion]) -> list[Impact]:
             if isinstance(each, Impact | Differential):
                 known.append(impact(each) if isinstance(each, Differential) else each)
     return known
-
-
-@dataclass(frozen=True)
-class Avoids(Gap):
-    """No phase in `phases` has its first impact at a phase in `target`."""
-
-    function: PlasticMap
-    phases: Phases
-    target: Phases
-
-    @property
-    def source(self) -> Range:
-        """The interval."""
-        return self.phases
-
-    def misses(self, target: Range) -> bool:
-        """Whether no phase has its first impact in an interval."""
-        return within(target, self.target)
-
-    @property
-    def sentence(self) -> str:
-        phases, target = show_range(self.phases), show_range(self.target)
-        return f"no phase of {phases} has its first impact in {target}."
-
-
-def avoids(context: Context, reader: Reader) -> Avoids:
-    """Rule `avoids`: {flights, target}: first-impact steps whose phases follow one another.
-
-    Hypothesis: for each step and each of its windows, phases + window misses target + 2 pi k
-    for every k. Conclusion: no phase of the union has its first impact in the target. Proof. Each
-    has it in a window of its step, so f in phases + window.
-    """
-    flights_of, target_of = reader.fields("flights", "target")
-    target = read_phases(target_of)
-    steps: list[FirstImpact] = []
-    for name in flights_of.items(least=1):
-        step = context.step(name, FirstImpact)
-        if steps and step.motion.phases[0] != steps[-1].motion.phases[1]:
-            raise name.fail("its phases do not continue those of the step before")
-        steps.append(step)
-        for window in step.windows:
-            if comes_to(step.at, step.motion.phases, window, target):
-                raise Unproved(f"a window of {name.string()} is not proved to miss the target")
-    phases = Phases(steps[0].motion.phases[0], steps[-1].motion.phases[1])
-    return Avoids(PlasticMap(steps[0].at), phases, Phases(*target))
-
-
-def comes_to(at: Place, phases: Range, time: Range, target: Range) -> bool:
-    """Return False only if phases + time is proved to miss target + 2 pi k for every k."""
-    return meets(PlasticMap(at), (phases[0] + time[0], phases[1] + time[1]), target)

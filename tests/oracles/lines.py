@@ -67,6 +67,13 @@ def within(x, side, room=1e-6):
     return float(side[0]) - room <= x <= float(side[1]) + room
 
 
+def avoids(view, rng):
+    """No point of the interval is taken into the target."""
+    line = Line(view.function)
+    hit = [x for x in points(view.source, rng, 20) if line.inside(line.at(x), view.target, -CLOSE)]
+    return [f"the image of {float(x):.9g} is in the target" for x in hit]
+
+
 def staying_set(view, rng):
     """Cells with slopes in bounds, mapped over those that follow; what stays is in them."""
     line, told = Line(view.function), []
@@ -137,6 +144,7 @@ def itinerary(view, rng):
 
 JUDGES = {
     "SlopeRange": slope_range,
+    "Avoids": avoids,
     "StayingSet": staying_set,
     "EntropyBound": entropy_bound,
     "StableOrbit": stable_orbit,

@@ -36,24 +36,6 @@ def _impact(view, phase, latest=LATEST):
     return flight(view.eta, view.nu, phase, latest=latest)
 
 
-def first_impact(view, rng):
-    """Each launch has its first impact in one of the windows."""
-    told = []
-    if not view.windows:
-        return ["no window"]
-    if view.transversal and len(view.windows) != 1:
-        told.append("more windows than one, or none")
-    for phase in points(view.motion.phases, rng):
-        found = _impact(view, phase, float(view.windows[-1][1]) + 1)
-        if found is None:
-            continue
-        if isinstance(found, str):
-            told.append(f"the launch at {float(phase):.9g}: {found}")
-        elif not any(inside(found.time, window) for window in view.windows):
-            told.append(f"the launch at {float(phase):.9g} has its impact at {found.time.str(9)}")
-    return told
-
-
 def point(view, rng):
     """f' and f at a phase, mod 2 pi."""
     return _at_point(view, view.phase, view.slope, view.image)
@@ -148,7 +130,7 @@ def lands_in(view, phase, target, slack=1e-12):
 def avoids(view, rng, count=10):
     """No first impact in the target; where two of them lie on both sides, look between."""
     before = None
-    for phase in points(view.phases, rng, count):
+    for phase in points(view.source, rng, count):
         now = lifted(view, phase)
         if lands_in(view, phase, view.target):
             return [f"the launch at {float(phase):.12g} lands in the target"]
@@ -396,7 +378,7 @@ def horseshoe_faults(sets, rng):
             told.append("H5 an image of I0 or I1 does not cover I")
     width = (sets.right[0] - sets.left[1]) / 10**6
     gap = SimpleNamespace(eta=sets.eta, nu=sets.nu, target=sets.interval)
-    gap.phases = sets.left[1] + width, sets.right[0] - width
+    gap.source = sets.left[1] + width, sets.right[0] - width
     told += [f"H4 H5 {one}" for one in avoids(gap, rng)]
     return told
 

@@ -103,7 +103,7 @@ def put(field, value):
 
 
 def _target_hit(record):
-    phase = lifted(record, between(record.phases, F(1, 2))) % TURN
+    phase = lifted(record, between(record.source, F(1, 2))) % TURN
     record.target = F(phase) - F(1, 100), F(phase) + F(1, 100)
 
 
@@ -185,7 +185,6 @@ def _never_disjoint(record):
 
 LINEAR = [put("ratios", (F(7, 10), F(4, 5))), put("ratios", (F(1, 3), F(1, 4)))]
 FALSE = {
-    "FirstImpact": [offs("windows"), put("windows", ())],
     "Impact": [offs("slope"), offs("image")],
     "SlopeRange": [offs("pieces"), offs("images"), offs("slopes"), _swap("points")],
     "Avoids": [_target_hit],

@@ -641,3 +641,13 @@ def test_many_theorems_are_counted():
         f"- and {len(theorem) - 3} more of this kind, in the certificate"
     )
     assert str(theorem).count("- exactly one") == len(theorem) > 3
+
+
+def test_the_image_of_a_box_is_about_as_wide_as_it_is():
+    """4 x (1 - x) takes [0.1, 0.9] onto [0.36, 1]; x^2 - y [0, 1]^2 onto [-1, 1]."""
+    for map_, sides, low, high in (
+        (Map("4*x*(1 - x)"), {"x": ("0.1", "0.9")}, Fraction(36, 100), 1),
+        (Map("x^2 - y", "y"), {"x": ("0", "1"), "y": ("0", "1")}, -1, 1),
+    ):
+        first = accepted(map_.image(**sides)).conclusion.bounds[0]
+        assert first[0] <= low < high <= first[1] and first[1] - first[0] < (high - low) * 1.01

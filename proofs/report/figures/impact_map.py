@@ -11,10 +11,10 @@ from proofs.report.figures.figure import Figure, all_of, the
 from proofs.report.figures.sampled import graph
 from proofs.report.figures.style import Axes, Drawing
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.differential import Avoids
 from proofs.trusted.kernel.laps import SlopeRange
 from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import between, show, show_range
-from proofs.trusted.slopes import Avoids
 
 Corners = list[tuple[Fraction, Fraction]]
 
@@ -80,8 +80,8 @@ def _shortfall(axes: Axes, proved: Context) -> None:
 
 def _gap(axes: Axes, avoids: Avoids) -> None:
     """Fill what f is proved to miss."""
-    label = f"f has no value in here, for $\\phi$ in {show_range(avoids.phases)}, proved"
-    style.proved_boxes(axes, [(avoids.phases, avoids.target)], "0.9", label)
+    label = f"f has no value in here, for $\\phi$ in {show_range(avoids.source)}, proved"
+    style.proved_boxes(axes, [(avoids.source, avoids.target)], "0.9", label)
 
 
 FIGURE = Figure(

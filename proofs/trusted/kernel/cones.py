@@ -33,10 +33,14 @@ Form = tuple[Fraction, ...]
 
 @dataclass(frozen=True)
 class Conjugacy(Conclusion):
-    """Each path of a graph is followed once: forward if all forms are positive."""
+    """Each path of a graph is followed once: forward if all forms are positive.
+
+    unstable: the number of unstable directions, if these orbits are hyperbolic.
+    """
 
     graph: Graph
     forward: bool
+    unstable: int | None
 
     @property
     def sentence(self) -> str:
@@ -45,13 +49,18 @@ class Conjugacy(Conclusion):
             return (
                 f"{self.graph.described}; each infinite path of these arrows is followed by "
                 "exactly one point, and the map on the compact set of these points is conjugate "
-                "to the one-sided shift on paths."
+                "to the one-sided shift on paths, and uniformly expanding."
             )
+        stable = len(self.graph.nodes[0].centre) - (self.unstable or 0)
+        hyperbolic = (
+            ", and these orbits are uniformly hyperbolic, with "
+            f"{self.unstable} unstable and {stable} stable direction{'s' * (stable > 1)}"
+        )
         return (
             f"{self.graph.described}; each bi-infinite path of these arrows is followed by "
             "exactly one full orbit, and the shift on these orbits is conjugate to the two-sided "
             "shift on paths (so is the map on the compact set of their points, if it is "
-            "one-to-one there)."
+            f"one-to-one there){hyperbolic if self.unstable else ''}."
         )
 
 
@@ -67,7 +76,10 @@ def cone(context: Context, reader: Reader) -> Conjugacy:
     `outside` no other turns than those of the relation bring an image into M.
 
     Conclusion: each bi-infinite path is followed by exactly one full orbit x_(m+1) = G(x_m) of
-    G = F^k. If all d_i > 0, each infinite path is followed by exactly one point.
+    G = F^k. If all d_i > 0, each infinite path is followed by exactly one point, and G is uniformly
+    expanding there. If no d_i is 0, and in each form u > 0 of them are positive, these orbits are
+    uniformly hyperbolic: at each there are subspaces E, E' of the dimensions u and n - u, taken
+    into those at its image, E onto; vectors of E' shrink exponentially, and those of E backwards.
 
     Proof. Existence: the graph step, and compactness. Let x_m, y_m be orbits along one path, in
     coordinates, D_m the mean of f' between them. Both lie in R, a convex set, since f maps them
@@ -75,7 +87,20 @@ def cone(context: Context, reader: Reader) -> Conjugacy:
     Q(z_m) + c |z_m|^2 with one c > 0, as J is compact. So Q(z_m) increases in m and is bounded, the
     sum of all |z_m|^2 is finite. Two-sided: z_m -> 0 at both ends, so Q(z_m) increases from 0 to
     0, and all z_m = 0. One-sided, Q > 0: |z_m| does not tend to 0 unless z_0 = 0. The itinerary is
-    then a continuous bijection of compact sets. Source: Kokubu, Wilczak and Zgliczynski,
+    then a continuous bijection of compact sets.
+
+    Hyperbolic: let now v_(m+1) = D_m v_m, D_m the derivative at x_m, so that again Q(v_(m+1)) >=
+    Q(v_m) + c |v_m|^2, and |Q(v)| <= a |v|^2. If Q(v_0) >= 0, v_0 != 0, then Q(v_m) > 0 grows at
+    least by 1 + c / a in each step from v_1 on. If all Q(v_m) <= 0, then -Q(v_(m+1)) <= (1 - c / a)
+    (-Q(v_m)) and |v_m|^2 <= -Q(v_m) / c: these v_0 are the ones with |v_m| -> 0, a subspace E'. It
+    is the intersection of the decreasing closed cones where Q(v_m) <= 0, each of which contains a
+    subspace of dimension n - u, by the preimage of a negative one; so does E' (compactness of
+    Grassmannians). On E' Q < 0, else Q(v_1) > 0; so its dimension is n - u. Subspaces of dimension
+    u with Q > 0 at x_-m have images of this dimension, with Q > 0 on the way; limits of these over
+    m, at x_0, x_-1, ..., are subspaces E with Q >= 0, each taken onto the next; on them Q shrinks
+    backwards by 1 + c / a, and |v_(m-1)|^2 <= Q(v_m) / c. Q > 0 on E, Q < 0 on E': they span all.
+
+    Source: Kokubu, Wilczak and Zgliczynski,
     Rigorous verification of cocoon bifurcations, Nonlinearity 20 (2007); Zgliczynski, Covering
     relations, cone conditions and the stable manifold theorem, J. Differential Equations 246
     (2009).
@@ -90,7 +115,9 @@ def cone(context: Context, reader: Reader) -> Conjugacy:
         _, _, _, _, matrices = relation.fields("box", "outside", "jacobian", "tree", "matrices")
         for leaf in leaves(matrices, jacobian):
             check_cone(leaf, forms[i], forms[j])
-    return Conjugacy(of, all(entry > 0 for form in forms for entry in form))
+    positive = {sum(entry > 0 for entry in form) for form in forms}
+    is_regular = len(positive) == 1 and all(entry for form in forms for entry in form)
+    return Conjugacy(of, positive == {n}, max(positive) if is_regular else None)
 
 
 def _derivatives(local: LocalMap, relation: Reader, n: int) -> Box:

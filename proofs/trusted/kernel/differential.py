@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import partial
 from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
-from proofs.trusted.kernel.conclusion import Conclusion, given
+from proofs.trusted.kernel.conclusion import AboutMap, Conclusion, Subject, given
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import (
     PRECISIONS,
     Box,
+    attempts,
     box_text,
     decide,
     enclosed,
@@ -22,8 +24,8 @@ from proofs.trusted.kernel.enclose import (
     mean_value_form,
     read_box,
 )
-from proofs.trusted.kernel.laps import Gap, SlopeRange, meets, shifted, turn_of
-from proofs.trusted.kernel.maps import Bent, Map, lifted, read_turns, turned
+from proofs.trusted.kernel.laps import SlopeRange, interval_of, meets, shifted, turn_of
+from proofs.trusted.kernel.maps import Bent, Jumping, Map, lifted, read_turns, turned
 from proofs.trusted.kernel.trees import is_name
 from proofs.trusted.numbers import (
     Range,
@@ -31,6 +33,7 @@ from proofs.trusted.numbers import (
     common,
     increasing,
     mean_values,
+    show_range,
     within,
 )
 
@@ -121,23 +124,12 @@ def _ranges(values: Sequence[Enclosure]) -> tuple[Range, ...]:
 
 
 @dataclass(frozen=True)
-class Image(Gap):
+class Image(Conclusion):
     """A map is defined and continuous on a box, and takes it into another one."""
 
     function: Map
     box: Box
     bounds: Box
-
-    @property
-    def source(self) -> Range:
-        """The box, of a map of one variable."""
-        if len(self.box) != 1 or len(self.bounds) != 1:
-            raise Unproved("a map of the line is expected")
-        return self.box[0]
-
-    def misses(self, target: Range) -> bool:
-        """Whether the bounds exclude an interval."""
-        return not meets(self.function, self.bounds[0], target)
 
     @property
     def sentence(self) -> str:
@@ -182,6 +174,55 @@ def _inside(bounds: Box, values: list[Enclosure]) -> bool:
     return all(within(value.range, side) for value, side in zip(values, bounds, strict=True))
 
 
+# -- what a map avoids -----------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Avoids(AboutMap):
+    """A map takes no point of one interval into another one."""
+
+    function: Subject
+    source: Range
+    target: Range
+
+    def __post_init__(self) -> None:
+        for ends in (self.source, self.target):
+            interval_of(self.function, ends)
+
+    @property
+    def sentence(self) -> str:
+        """Return the statement."""
+        source, target = show_range(self.source), show_range(self.target)
+        if self.place is not None:
+            return f"no phase of {source} has its first impact in {target}."
+        name = self.function.name
+        return f"{given(self.function)}`{name}` takes no point of {source} into {target}."
+
+
+def avoids(context: Context, reader: Reader) -> Avoids:
+    """Rule `avoids`: {function F of one variable, points x_0 < ... < x_n, target}.
+
+    Conclusion: F takes no point of [x_0, x_n] into the target; if the variable is an angle, modulo
+    its period. Proof. Each value at a point of a piece [x_i, x_(i+1)] is in one of the enclosures
+    on that piece, be F continuous there or not; they miss the target, less any number of periods.
+    """
+    function_of, points_of, target_of = reader.fields("function", "points", "target")
+    map_, points = read_line(context, function_of, points_of)
+    conclusion = Avoids(map_, (points[0], points[-1]), target_of.range())
+    for piece in pairwise(points):
+        if not misses(map_, piece, conclusion.target):
+            raise Unproved(f"a value on {show_range(piece)} is not proved to miss the target")
+    return conclusion
+
+
+def misses(map_: Map, piece: Range, target: Range) -> bool:
+    """Whether it is proved that no point of an interval is taken into another one."""
+    if isinstance(map_, Jumping):
+        places = map_.possible_values(enclosed((piece,), BITS))
+        return not any(meets(map_, value.range, target) for (value,) in places)
+    return any(not meets(map_, value.range, target) for (value,) in attempts(map_, (piece,)))
+
+
 # -- slopes ----------------------------------------------------------------------------------------
 
 
@@ -195,9 +236,7 @@ def slopes(context: Context, reader: Reader) -> SlopeRange:
     F'(x_(i+1)) - F'' [0, w] as well, by the mean value theorem.
     """
     function_of, points_of, bits_of = reader.fields("function", "points", "bits")
-    map_, points = context.function(function_of), points_of.numbers(2, _MOST_POINTS)
-    if not len(map_.variables) == map_.size == 1 or not increasing(points):
-        raise function_of.fail("a map of the line, and points that increase, are expected")
+    map_, points = read_line(context, function_of, points_of)
     bits = integer(bits_of, BITS, PRECISIONS[-1])
     turns, over = [0] * len(map_.circles), [_slope_and_bend(map_, x) for x in pairwise(points)]
     at = [differential_on(map_, ((x, x),), turns, bits) for x in points]
@@ -210,6 +249,16 @@ def slopes(context: Context, reader: Reader) -> SlopeRange:
         )
     ]
     return SlopeRange(map_, points, inner, images, tuple(pieces))
+
+
+def read_line(
+    context: Context, function_of: Reader, points_of: Reader
+) -> tuple[Map, tuple[Fraction, ...]]:
+    """Read a map of the line, or of a circle, and points x_0 < ... < x_n."""
+    map_, points = context.function(function_of), points_of.numbers(2, _MOST_POINTS)
+    if not len(map_.variables) == map_.size == 1 or not increasing(points):
+        raise function_of.fail("a map of the line, and points that increase, are expected")
+    return map_, points
 
 
 def _slope_and_bend(map_: Map, piece: Range) -> tuple[Range, Range | None]:

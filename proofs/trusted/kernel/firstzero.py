@@ -12,6 +12,7 @@ from proofs.trusted.kernel.gaps import clears
 from proofs.trusted.numbers import Range, between, show
 
 _SMALL = 4  # halvings
+_MOST_WINDOWS, _SHARP = 16, 6
 
 
 class Launches(Protocol):
@@ -82,7 +83,46 @@ class FirstZero:
         for low, high, end in self._steps(int(latest) << self.bits):
             if end is not None and end.hi < 0:
                 return Enclosure(low, high, self.bits).range
-        raise NoFirstZero(f"no impact is proved before the time {show(latest)}, {self._place}")
+        raise self._none_before(latest)
+
+    def _none_before(self, latest: Fraction) -> NoFirstZero:
+        return NoFirstZero(f"no impact is proved before the time {show(latest)}, {self._place}")
+
+    def windows(self, latest: Fraction) -> Iterator[Range]:
+        """Yield times low < high: gap > 0 before and between them, and < 0 at the end of the last.
+
+        So the first zero of each flight is in one of them, be it a graze. They are no sharper than
+        a part of the widths of the states.
+        """
+        widths = (x.hi - x.lo for x in self.launches.states)
+        self._shortest = max(self._shortest, min(self._first, max(widths) >> _SHARP))
+        high, end = 0, int(latest) << self.bits
+        for _ in range(_MOST_WINDOWS):
+            low = self._up(high, end)
+            high = self._decided(low, end)
+            if high > end:
+                raise self._none_before(latest)
+            yield Enclosure(low, high, self.bits).range
+            if self._at(high).hi < 0:
+                return
+        raise Unproved(f"an impact is possible in more than {_MOST_WINDOWS} windows, {self._place}")
+
+    def _up(self, low: int, end: int) -> int:
+        """Return a time up to which the gap is proved > 0, as it is up to `low`."""
+        try:
+            for step in self._steps(end, low, is_past=False):
+                low = step.high
+        except Unproved:
+            if not low:
+                raise
+        return low
+
+    def _decided(self, low: int, end: int) -> int:
+        """Return a time after `low` at which the gap has one sign, or one after the end."""
+        step = self._shortest
+        while low + step <= end and self._at(low + step).has_zero:
+            step *= 2
+        return low + step
 
     def require_none(self, until: Fraction) -> None:
         """Raise Unproved unless the gap is proved > 0 up to a time."""
@@ -94,8 +134,9 @@ class FirstZero:
                     f"a gap is not proved > 0 up to the time {show(time)}, {self._place}"
                 )
 
-    def _steps(self, end: int) -> Iterator[Step]:
-        low, step, leaving = 0, self._first, self.gap.order > 0
+    def _steps(self, end: int, low: int = 0, is_past: bool = True) -> Iterator[Step]:
+        """Step from `low` to the end; is_past: also where the gap falls and is not > 0 any more."""
+        step, leaving = self._first, self.gap.order > 0 and not low
         least, falling, is_new = self._at(low).lo, None, True
         known, self.taken = self.taken, []
         if not leaving and least <= 0:
@@ -106,7 +147,8 @@ class FirstZero:
                 after = self._at(high)
                 leaves = leaving and self._leaves(low, high)
                 stays = leaves or (falling is None and self._stays(low, high, min(least, after.lo)))
-                falls = not stays and low > 0 and self._falls(low, high)
+                may_fall = not stays and low > 0 and (is_past or after.lo > 0)
+                falls = may_fall and self._falls(low, high)
             except Unproved:  # a formula is not proved defined for so long a time
                 leaves = stays = falls = False
             if not (stays or falls):

@@ -79,9 +79,12 @@ def open_windows(gap_of: Gap, times: Sequence[Fraction]) -> list[Range]:
 def first_windows(
     gap_of: Gap, times: Sequence[Fraction], *orders: int
 ) -> tuple[tuple[Range, ...], bool]:
-    """Return the windows of the first impact, and whether it is transversal: rule `first-impact`.
+    """Return the windows of the first impact, and whether it is transversal.
 
-    For an order k of `orders`: gap^(k) > 0 on [0, t_1], lower derivatives are >= 0 at launch.
+    For an order k of `orders`: gap^(k) > 0 on [0, t_1], lower derivatives are >= 0 at launch, so
+    that gap > 0 on (0, t_1]. A piece [t_j, t_(j+1)] that does not stay up belongs to a window. The
+    impact is transversal (unique, smooth in the launch) if there is one window, which ends at t_n,
+    and gap' < 0 on it.
     """
     if all(gap_of((_ZERO, times[0]), order).lo <= 0 for order in orders):
         raise Unproved("the launches are not proved to leave the table")

@@ -216,16 +216,3 @@ class SlopeRange(AboutMap, Lap):
             return ""
         low, high = floor_text(self.minimum[0]), ceil_text(self.maximum[1])
         return rf"{low} \le f'(\varphi) \le {high},\ \varphi \in {show_range(self.ends)}"
-
-
-class Gap(AboutMap):
-    """What says of the points of an interval where their images are not."""
-
-    @property
-    def source(self) -> Range:
-        """The interval."""
-        raise NotImplementedError
-
-    def misses(self, target: Range) -> bool:
-        """Whether the map takes no point of the interval into another one."""
-        raise NotImplementedError

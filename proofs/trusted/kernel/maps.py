@@ -8,7 +8,7 @@ has `time`, `motion` and `gaps` as well (see `flight`), a flow without a closed 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import reduce
 from typing import Protocol, runtime_checkable
@@ -45,6 +45,14 @@ class Bent(Protocol):
 
     def bend(self, x: Sequence[Enclosure]) -> Enclosure:
         """Enclose the second derivative, for all x in a box."""
+
+
+@runtime_checkable
+class Jumping(Protocol):
+    """A map that may jump: on a box its values may be in several places."""
+
+    def possible_values(self, x: Sequence[Enclosure]) -> Iterator[list[Enclosure]]:
+        """Enclose the values in each place."""
 
 
 @dataclass(frozen=True, eq=False)

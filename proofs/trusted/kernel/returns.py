@@ -7,7 +7,7 @@ takes the state to some values, functions of the same, at the first t > 0 at whi
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -72,11 +72,11 @@ class ReturnMap:
     gaps: tuple[Gap, ...]
     latest: Fraction = field(default=LATEST, kw_only=True)
     _known: dict[tuple[int, ...], tuple[Sequence[Enclosure], Enclosure]] = field(
-        default_factory=dict, init=False
+        default_factory=dict, init=False, repr=False
     )  # boxes, with the times of the impacts
-    _last: dict[tuple[int, ...], Impact] = field(default_factory=dict, init=False)
+    _last: dict[tuple[int, ...], Impact] = field(default_factory=dict, init=False, repr=False)
     _taken: dict[int, list[int]] = field(
-        default_factory=dict, init=False
+        default_factory=dict, init=False, repr=False
     )  # steps of the last search, by bits
 
     @property
@@ -166,14 +166,24 @@ class ReturnMap:
         on_tape = [k if k < self.state else k + 1 for k in places]  # the time is between them
         return [self.formulas.derivative(root, k) for k in (*on_tape, self.state)]
 
+    def possible_values(self, x: Sequence[Enclosure]) -> Iterator[list[Enclosure]]:
+        """Enclose the values after each of the times at which the first impact may be."""
+        launches = self._launches(x)
+        for low, high in FirstZero(launches, self.gaps[0]).windows(self.latest):
+            self._require_others(launches, high)
+            yield launches.on(self.outcome, Enclosure.of(low, high, x[0].bits))
+
     def impact(self, x: Sequence[Enclosure]) -> Enclosure:
         """Enclose the time of the impact, for all states in a box: see `FirstZero`."""
         return self._impact(x).time
 
+    def _launches(self, x: Sequence[Enclosure]) -> Launches:
+        return Launches(self, list(x), enclosed(self.formulas.ranges, x[0].bits))
+
     def _impact(self, x: Sequence[Enclosure]) -> Impact:
         key = (x[0].bits, *(end for side in x for end in (side.lo, side.hi)))
         if key not in self._last:
-            launches = Launches(self, list(x), enclosed(self.formulas.ranges, x[0].bits))
+            launches = self._launches(x)
             if key not in self._known:
                 time = Impact.sharp(launches, self._window(launches)).time
                 if len(self._known) == _REMEMBERED:
@@ -200,10 +210,14 @@ class ReturnMap:
         window = search.window(self.latest)
         if len(self.gaps) > 1:  # other walls may be reached soon after this one
             window = Impact.sharp(launches, window).time.range
-        for gap in self.gaps[1:]:
-            FirstZero(launches, gap).require_none(window[1])
+        self._require_others(launches, window[1])
         self._taken[search.bits] = search.taken
         return window
+
+    def _require_others(self, launches: Launches, until: Fraction) -> None:
+        """Raise Unproved unless the other gaps are proved > 0 up to a time."""
+        for gap in self.gaps[1:]:
+            FirstZero(launches, gap).require_none(until)
 
 
 @dataclass

@@ -12,9 +12,10 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import AboutMap, Subject, given, named
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.kernel.differential import Avoids
 from proofs.trusted.kernel.elementary import log
 from proofs.trusted.kernel.images import ImageArc, image_arc
-from proofs.trusted.kernel.laps import Gap, SlopeRange, interval_of, signed, subject_of
+from proofs.trusted.kernel.laps import SlopeRange, interval_of, signed, subject_of
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.kernel.shifts import closed_paths, irreducible, log_of, spectral_radius
 from proofs.trusted.numbers import (
@@ -242,7 +243,7 @@ class StayingSet(AboutMap):
 
 
 def staying_set(
-    region: Sequence[Range], cells: Sequence[SlopeRange], gaps: Sequence[Gap]
+    region: Sequence[Range], cells: Sequence[SlopeRange], gaps: Sequence[Avoids]
 ) -> StayingSet:
     """Theorem. Let cells lie in a region, intervals that are apart, and meet at ends at most, |f'|
     > 1 on each, with an image shorter than the circle. Let cells and gaps cover the region, and let
@@ -275,7 +276,7 @@ def staying_set(
     for cell in cells:
         if not cell.expands or not any(within(cell.domain, part) for part in region):
             raise Unproved("on a cell f does not expand, or it leaves the region")
-    if not all(gap.misses(part) for part in region for gap in gaps):
+    if not all(within(part, gap.target) for part in region for gap in gaps):
         raise Unproved("a gap is not proved to avoid the region")
     known = sorted([*(cell.domain for cell in cells), *(gap.source for gap in gaps)])
     if not all(covered(part, known) for part in region):
@@ -327,11 +328,11 @@ def prove_staying_set(context: Context, reader: Reader) -> StayingSet:
     """Rule `staying-set`: {region: [[low, high], ...], cells: [{slopes, domain}], gaps}.
 
     For a map of the line, or of a circle. slopes: a step of the rule `slopes`;
-    domain: two of its points; gaps: names of steps `image` or `avoids`. Conclusion: `staying_set`.
+    domain: two of its points; gaps: names of steps `avoids`. Conclusion: `staying_set`.
     """
     region, cells, gaps = reader.fields("region", "cells", "gaps")
     return staying_set(
         [part.range() for part in region.items(1, 500)],
         [read_part(context, cell) for cell in cells.items(1, 500)],
-        [context.step(gap, Gap) for gap in gaps.items(0, 50)],
+        [context.step(gap, Avoids) for gap in gaps.items(0, 50)],
     )

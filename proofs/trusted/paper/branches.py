@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from bisect import bisect_left
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.flights import FirstImpact, Motion, lifted
+from proofs.trusted.flights import Motion, lifted
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.enclose import integer
+from proofs.trusted.kernel.enclose import enclosed, integer
 from proofs.trusted.kernel.gaps import falls
 from proofs.trusted.kernel.laps import Lap
 from proofs.trusted.numbers import Phases, Range, hull, increasing, show_range, within
@@ -41,11 +42,8 @@ class Branch(Lap):
     )
 
     def __post_init__(self) -> None:
-        if not increasing(self.cuts):
-            raise Unproved("the cuts of a branch must increase")
-        Phases(self.cuts[0], self.cuts[-1])  # raises where this is no interval of them
         ordered = all(0 < begin < end for begin, end in self.windows)
-        if len(self.windows) != len(self.cuts) - 1 or not ordered:
+        if len(self.windows) != len(pieces_of(self.cuts)) or not ordered:
             raise Unproved("a branch has a window of the impacts after each piece")
 
     @cached_property
@@ -153,13 +151,13 @@ class Branch(Lap):
 
 
 def branch(context: Context, reader: Reader) -> Branch:
-    """Rule `branch`: {flights, turn}, or {cuts x_0 < ... < x_n, turn K >= 1, ends e_1, ..., e_n}.
+    """Rule `branch`: {cuts x_0 < ... < x_n, turn K}, or for long flights {cuts, turn, ends e_i}.
 
-    flights: names of transversal first-impact steps whose phases follow one another; turn is any
-    whole number. Conclusion: `Branch`, with the windows of the flights. Proof. Their first impacts
-    are smooth in the phase; at a shared end they are the same.
+    Without ends, K is any whole number. Conclusion: `Branch`, the windows being those in which the
+    first impacts after [x_(i-1), x_i] are found (see `FirstZero`). Proof. There they are
+    transversal, so smooth in the phase; at a shared end they are the same.
 
-    The second form, of long flights, is for -1 < nu < 0. Hypotheses: on phases [x_0, x_n] gap'' > 0
+    With ends e_1, ..., e_n, K >= 1 and -1 < nu < 0. Hypotheses: on phases [x_0, x_n] gap'' > 0
     on [0, t_1]; gap > 0 after t_1 in each of the windows of `Meetings` for the minima 0, ..., K - 1
     of the table; window K starts at s > t_1. On [x_(i-1), x_i]: gap' < 0 on [s, e_i] and
     gap(e_i) < 0. Conclusion: `Branch`, with the windows [s, e_i].
@@ -169,10 +167,11 @@ def branch(context: Context, reader: Reader) -> Branch:
     on (0, s]. Then the gap falls to a negative value: one zero, transversal, so f is C^1 on each
     piece, and on the union since at a shared end the first impact is the same.
     """
-    if reader.has("flights"):
-        return _joined(context, *reader.fields("flights", "turn"))
-    cuts_of, turn_of, ends_of = reader.fields("cuts", "turn", "ends")
-    cuts, turn = cuts_of.numbers(2, 200), integer(turn_of, 1, MOST_TURNS)
+    is_long = ("ends",) if reader.has("ends") else ()
+    cuts_of, turn_of, *ends_of = reader.fields("cuts", "turn", *is_long)
+    cuts, turn = cuts_of.numbers(2, 200), integer(turn_of, len(ends_of), MOST_TURNS)
+    if not ends_of:
+        return short_branch(context.place, cuts, turn)
     at, phases = context.place, Phases(cuts[0], cuts[-1])
     if not -1 < at.point[1] < 0:
         raise Unproved("windows are known for -1 < nu < 0 only")
@@ -184,7 +183,7 @@ def branch(context: Context, reader: Reader) -> Branch:
     begin = meetings.window(turn)[0]
     if begin <= launched:
         raise Unproved("the last window starts at launch")
-    ends = ends_of.numbers(len(cuts) - 1, len(cuts) - 1)
+    ends = ends_of[0].numbers(len(cuts) - 1, len(cuts) - 1)
     found = Branch(at, cuts, turn, tuple((begin, end) for end in ends))
     for piece, end in zip(pairwise(cuts), ends, strict=True):
         if not falls(found.motion(piece).gap_of, (begin, end), DEEPEST):
@@ -194,15 +193,16 @@ def branch(context: Context, reader: Reader) -> Branch:
     return found
 
 
-def _joined(context: Context, names: Reader, turn_of: Reader) -> Branch:
-    """Join transversal first impacts to a branch."""
-    flights = [context.step(name, FirstImpact) for name in names.items(1, 1000)]
-    parts = [each.motion.phases for each in flights]
-    if not all(each.transversal for each in flights):
-        raise Unproved("a first impact is not transversal")
-    if any(one[1] != two[0] for one, two in pairwise(parts)):
-        raise Unproved("the parts of a branch do not follow one another")
-    if len(places := {each.at for each in flights}) != 1:
-        raise Unproved("the flights are about different oscillators")
-    cuts, windows = (parts[0][0], *(high for _, high in parts)), (x.windows[0] for x in flights)
-    return Branch(places.pop(), cuts, integer(turn_of, 0, MOST_TURNS), tuple(windows))
+def short_branch(at: Place, cuts: Sequence[Fraction], turn: int) -> Branch:
+    """Return a branch with the windows in which its impacts are found."""
+    function = PlasticMap(at)
+    windows = (function.window(enclosed((piece,), BITS)) for piece in pieces_of(cuts))
+    return Branch(at, tuple(cuts), turn, tuple(windows))
+
+
+def pieces_of(cuts: Sequence[Fraction]) -> list[Range]:
+    """Return the intervals between phases that increase; else Unproved."""
+    Phases(cuts[0], cuts[-1])  # raises where this is no interval of them
+    if not increasing(cuts):
+        raise Unproved("the cuts of a branch must increase")
+    return list(pairwise(cuts))

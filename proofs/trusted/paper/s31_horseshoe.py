@@ -7,12 +7,13 @@ from contextlib import suppress
 from fractions import Fraction
 
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.differential import Avoids
 from proofs.trusted.kernel.images import ImageArc, image_arc
 from proofs.trusted.kernel.laps import SlopeRange, signed
 from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Range, ceil_text, within
 from proofs.trusted.parameters import Parameters
-from proofs.trusted.slopes import Avoids, Impact, impacts
+from proofs.trusted.slopes import Impact, impacts
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
 
@@ -23,7 +24,7 @@ def horseshoes(found: Found) -> list[StayingSet]:
 
 def escapes(avoided: Avoids, gap: Range, interval: Range) -> bool:
     """Whether f is proved to map all phases of a gap outside an interval."""
-    return within(gap, avoided.phases) and within(interval, avoided.target)
+    return within(gap, avoided.source) and within(interval, avoided.target)
 
 
 def _signed_at(of: Parameters, point: Impact) -> Range | None:

@@ -98,26 +98,21 @@ def computed(folder, needed, parts):
     return re.findall(r"= (true|false)", coqc.run(folder, "Asked").output)
 
 
-def one(pattern, change):
-    """An edit of the first place of a pattern in the definitions, which must change something."""
+def one(pattern, change, place=0):
+    """An edit of the first place of a pattern, which must change something: in the definitions, or,
+    if place is 1, in what is asked.
+    """
 
-    def edit(definitions, check):
-        edited = re.sub(pattern, change, definitions, count=1)
-        assert edited != definitions
-        return edited, check
+    def edit(*parts):
+        edited = re.sub(pattern, change, parts[place], count=1)
+        assert edited != parts[place]
+        return (edited, parts[1]) if place == 0 else (parts[0], edited)
 
     return edit
 
 
 def asking(pattern, change):
-    """An edit of what is asked."""
-
-    def edit(definitions, check):
-        edited = re.sub(pattern, change, check, count=1)
-        assert edited != check
-        return definitions, edited
-
-    return edit
+    return one(pattern, change, place=1)
 
 
 def printed_by_coq(folder, *commands):

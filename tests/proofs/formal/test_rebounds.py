@@ -2,7 +2,7 @@
 
 import json
 import re
-from functools import cache
+from functools import cache, partial
 
 import mpmath
 import pytest
@@ -119,16 +119,17 @@ def test_coqc_accepts_the_repaired_rectangles(capsys, tmp_path):
     assert set(answer["axioms"]) == coqc.REALS
 
 
-def bound(place, change):
-    """An edit of a bound, by its place."""
-    pattern = r"(Bounds" + r" \(-?\d+\)" * place + r") \((-?\d+)\)"
+def number(head, place, change):
+    """An edit of a number after a head, by its place."""
+    pattern = f"({head}" + r" \(-?\d+\)" * place + r") \((-?\d+)\)"
     return one(pattern, lambda found: f"{found[1]} ({change(int(found[2]))})")
+
+
+bound = partial(number, "Bounds")
 
 
 def strip(name, place, change):
-    """An edit of a number at the head of a rectangle's data."""
-    pattern = rf"(Definition {name} := Strip" + r" \(-?\d+\)" * place + r") \((-?\d+)\)"
-    return one(pattern, lambda found: f"{found[1]} ({change(int(found[2]))})")
+    return number(f"Definition {name} := Strip", place, change)
 
 
 LIES = {

@@ -173,11 +173,8 @@ def test_3_the_first_levels_are_the_sets(drawings):
         witness = step("dimension", name)
         drawn = {label: [box(each)[0] for each in polygons] for label, polygons in axes.items()}
         assert drawn["I, exact"] == [tuple(numbers(witness["hull"]))]
-        branches = [step("dimension", each)["flights"] for each in witness["branches"]]
-        domains = [
-            (step("dimension", each[0])["phases"][0], step("dimension", each[-1])["phases"][1])
-            for each in branches
-        ]
+        cuts = [step("dimension", each)["cuts"] for each in witness["branches"]]
+        domains = [(each[0], each[-1]) for each in cuts]
         assert drawn["I0 and I1, exact"] == [tuple(numbers(x)) for x in domains]
 
 

@@ -10,7 +10,7 @@ import sys
 from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from proofs.trusted.certificate import SCHEMA
 from proofs.trusted.files import parameters_to_json, render
@@ -159,28 +159,18 @@ def false_horseshoe(document: Document) -> None:
 
     All lie just after phase 0, none in I.
     """
-    early = ["1", "2", "4", "8", "12", "16", "20", "22", "24", "97/4"]
 
-    def impacts(phases: tuple[Fraction, Fraction], *times: str) -> Document:
-        ends = [str(Fraction(t)) for t in times]
-        witness = {"phases": [str(x) for x in phases], "times": early + ends}
-        return {"rule": "first-impact", "witness": witness}
-
-    def slopes(ends: tuple[Fraction, Fraction]) -> Document:
+    def about(rule: str, ends: tuple[Fraction, Fraction], **fields: Any) -> Document:
         at = {"eta": [str(FALSE.eta)] * 2, "nu": [str(FALSE.nu)] * 2}
         points = [str(end) for end in ends]
-        return {"rule": "slopes", "witness": {"function": at, "points": points, "bits": "64"}}
+        return {"rule": rule, "witness": {"function": at, "points": points, **fields}}
 
     target = [str(end) for end in FALSE.interval]
     document["parameters"] = parameters_to_json(FALSE)
     document["steps"] = {
-        "slopes-1": slopes(FALSE.left),
-        "slopes-2": slopes(FALSE.right),
-        "first-impact-1": impacts(FALSE.gap, "24.375", "24.39", "24.42"),
-        "avoids-1": {
-            "rule": "avoids",
-            "witness": {"flights": ["first-impact-1"], "target": target},
-        },
+        "slopes-1": about("slopes", FALSE.left, bits="64"),
+        "slopes-2": about("slopes", FALSE.right, bits="64"),
+        "avoids-1": about("avoids", FALSE.gap, target=target),
     }
     parts = zip(("slopes-1", "slopes-2"), (FALSE.left, FALSE.right), strict=True)
     cells = [{"slopes": name, "domain": [str(x) for x in part]} for name, part in parts]

@@ -32,10 +32,10 @@ HARMLESS = {  # fields; what may be done to them, and why
         "nudged moved widened looser tighter",
         "another bracket that holds the impact; the numbers are computed from it again",
     ),
-    "phases": ("nudged looser", "the same times prove the first impact of a few phases more"),
     "root": ("nudged looser tighter widened", "another bracket of the root"),
     **dict.fromkeys(("bounds", "states", "weights"), (ANY, "others, proved anew")),
     "points": ("nudged dropped", "other points of the same pieces"),
+    "target": ("nudged moved looser tighter", "another interval that is avoided, too"),
     "slopes": ("added", "a step may be named twice"),
     "cuts": (ANY, "another subdivision: every part is proved anew"),
     "cone": (ANY, "other cones, proved again"),
@@ -53,6 +53,7 @@ HARMLESS = {  # fields; what may be done to them, and why
     **dict.fromkeys(("epsilon", "velocities", "reach"), (ANY, "plastic claims do not speak of it")),
     **dict.fromkeys(("proof", "steps", "orbits", "cells"), ("swapped turned", "the order is free")),
     **dict.fromkeys(("gaps", "images"), ("added swapped turned", "one may be there twice")),
+    "lower": ("another", "a digit less: a lower bound as well"),
     "formula": ("another", "the same function"),
 }
 EXCUSED = {  # what breaks the form elsewhere
@@ -202,7 +203,7 @@ def names(document: Document, path: tuple[Any, ...], value: str) -> Found:
     steps = document["steps"]
     known, unknown = (), ()
     if value in steps:
-        known, unknown = tuple(steps), ("nowhere", "", path[1], "F", "first-impact")
+        known, unknown = tuple(steps), ("nowhere", "", path[1], "F", "avoids")
     elif value in document["functions"]:
         unknown = ("Nothing",)
     elif value in ("+", "-"):

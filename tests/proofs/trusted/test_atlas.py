@@ -8,8 +8,6 @@ from fractions import Fraction
 
 import pytest
 
-from proofs.plane.head import Here, run
-from proofs.plane.store import opened
 from proofs.trusted.atlas import Region, area, check_atlas
 from proofs.trusted.certificate import SCHEMA as DOCUMENT
 from proofs.trusted.certificate import Malformed, Reader, texts
@@ -24,6 +22,7 @@ from proofs.trusted.subjects import Oscillators, Systems
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check
 from tests.oracles.edits import needed
+from tests.proofs.plane.test_systems import made_of
 from tests.proofs.trusted.kernel import lemma_examples
 
 F = Fraction
@@ -128,12 +127,6 @@ def test_what_is_no_cell(key):
 
 
 # -- lines -----------------------------------------------------------------------------------------
-
-
-def made_of(folder, region, depth):
-    with opened(folder, region) as store:
-        run(store, depth, (Here(), 1), 16)
-        return [json.loads(line) for line in store.lines()]
 
 
 @pytest.fixture(scope="module")

@@ -18,17 +18,15 @@ from mpmath import mp, mpf
 from proofs.trusted.certificate import Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.enclose import enclosed
+from proofs.trusted.kernel.laps import meets
 from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.rules import RULES
-from proofs.trusted.slopes import comes_to, impacts
 from proofs.trusted.slopes import impact as impact_of
+from proofs.trusted.slopes import impacts
 from tests.proofs.trusted.paper import reference
 from tests.proofs.trusted.paper.steps import apply as step
 from tests.proofs.trusted.paper.steps import exact
-
-TO_25 = ["1", "2", "4", "8", "12", "16", "20", "22", "24", "49/2", "25"]
-IMPACT_115 = {"phases": ["23/20", "23/20"], "times": [*TO_25, "251/10", "126/5", "51/2"]}
 
 
 def true_turn():
@@ -58,87 +56,35 @@ def refused(rule, witness, known=None, reason=None, error=(Unproved, Malformed))
         step(rule, witness, known)
 
 
-# -- first-impact ----------------------------------------------------------------------------------
+# -- the first impact ------------------------------------------------------------------------------
 
 
-def test_first_impact_finds_the_true_window():
-    found = step("first-impact", IMPACT_115)
-    assert found.transversal
-    ((low, high),) = found.windows
-    assert low < exact(flight_time("1.15")) < high <= Fraction("25.5")
+def places(low, high, latest=100):
+    """Where the first impact of the phases of an interval may be: phase + time."""
+    f = PlasticMap(PAPER.place, Fraction(latest))
+    x = enclosed(((Fraction(low), Fraction(high)),), 64)
+    return [value.range for (value,) in f.possible_values(x)]
 
 
-def test_first_impact_after_a_near_grazing_minimum():
-    fine = [Fraction(25) + Fraction(k, 64) for k in range(1, 128)]
-    coarse = [
-        28,
-        30,
-        32,
-        34,
-        38,
-        42,
-        46,
-        50,
-        52,
-        53,
-        54,
-        55,
-        56,
-        Fraction("56.1"),
-        Fraction("56.3"),
-    ]
-    found = step(
-        "first-impact", {"phases": times("1.2", "1.2"), "times": TO_25 + times(*fine, *coarse)}
-    )
-    assert found.transversal
-    assert found.windows[0][0] < exact(flight_time("1.2")) < found.windows[0][1]
-    assert found.windows[0][0] > 50
+@pytest.mark.parametrize("phase", ["1.11", "1.15", "1.19998", "1.2", "1.3"])
+def test_a_flight_has_one_impact_if_it_does_not_graze(phase):
+    ((low, high),) = places(phase, phase)
+    assert low < exact(flight_time(phase)) + Fraction(phase) < high < low + Fraction(1, 10)
+    begin, end = PlasticMap(PAPER.place).window(enclosed(((Fraction(phase),) * 2,), 64))
+    assert begin < exact(flight_time(phase)) < end
 
 
-@pytest.mark.parametrize(
-    "after",
-    [
-        ["26", "28", "32", "40", "50", "56", "57"],  # over the minimum in coarse steps
-        ["28", "32", "40", "50", "56", "57"],
-        ["57"],
-        times("25.8", "25.9", "26", "28", "32", "40", "50", "56", "57"),
-    ],
-)
-def test_near_grazing_is_not_passed_over(after):
-    """Where the steps do not exclude an earlier impact, it is possible: not transversal."""
-    found = step("first-impact", {"phases": times("1.2", "1.2"), "times": TO_25 + after})
-    assert not found.transversal
-    assert found.windows[0][0] < 26
-
-
-@pytest.mark.parametrize("skipped", [["27"], ["27", "28"], times("25.3", "27"), ["28", "40"]])
-def test_a_later_impact_is_not_taken_for_the_first(skipped):
-    """At phase 1.15 the gap is positive at 25 and at 27, and vanishes twice between."""
-    tail = [*skipped, *times(45, 50, 54, 55, 56, "56.25", "56.5")]
-    tail = sorted(set(map(Fraction, tail)))
-    found = step("first-impact", {"phases": times("1.15", "1.15"), "times": TO_25 + times(*tail)})
-    assert not found.transversal
-    assert found.windows[0][0] <= exact(flight_time("1.15")) <= found.windows[0][1]
-
-
-@pytest.mark.parametrize("end", ["25.4", "56.5", "57", "60", "400"])
-def test_window_may_not_start_before_the_flight_is_known(end):
-    """With one huge piece the window holds more than one zero, and gap' has no sign on it."""
-    try:
-        found = step("first-impact", {"phases": times("1.15", "1.15"), "times": ["1", *times(end)]})
-    except Unproved:
-        return
-    assert not found.transversal
-
-
-@pytest.mark.parametrize("first", ["10", "14", "20", "25", "25.3", "40"])
-def test_launch_piece_too_long(first):
-    """gap'' changes sign before: the launch piece proves nothing, whatever follows."""
-    refused(
-        "first-impact",
-        {"phases": times("1.15", "1.15"), "times": times(first, "56", "57")},
-        reason="leave the table",
-    )
+@pytest.mark.parametrize("phases", [("1.15", "1.27"), ("1.19", "1.2"), ("1.1999", "1.2001")])
+def test_a_graze_is_not_passed_over(phases):
+    """At 1.199985... the gap touches 0 at 25.87, and vanishes first at 56.2: f jumps."""
+    early, late = places(*phases)
+    low, high = map(Fraction, phases)
+    for phase in (low, (low + high) / 2, Fraction("1.19998"), Fraction("1.19999"), high):
+        image = exact(flight_time(f"{float(phase)}")) + phase
+        assert any(begin < image < end for begin, end in (early, late))
+    assert early[0] < Fraction("25.88") + high and late[1] > Fraction("56.1") + low
+    with pytest.raises(Unproved, match=r"graze|transversal"):
+        PlasticMap(PAPER.place).window(enclosed(((low, high),), 64))
 
 
 @pytest.mark.parametrize("phase", ["4", "4.7", "5"])
@@ -146,30 +92,14 @@ def test_a_sticking_launch_is_refused(phase):
     """Where the launch acceleration is negative the mass sticks to the table first."""
     nu = mpf("-0.2")
     assert reference.launch_acceleration(mpf("0.2121"), nu, mpf(phase)) < 0
-    refused(
-        "first-impact",
-        {"phases": times(phase, phase), "times": [*times("1/1000000", "1/2"), *TO_25]},
-        reason="leave the table",
-    )
+    with pytest.raises(Unproved, match="right after launch"):
+        places(phase, phase)
 
 
-def test_all_phases_count():
-    """At time 25.3 some of [1.11, 1.15] have had their impact and some not."""
-    refused(
-        "first-impact",
-        {"phases": times("1.11", "1.15"), "times": [*TO_25, "253/10"]},
-        reason="negative at the last time",
-    )
-
-
-@pytest.mark.parametrize("phases", [("1.1", "1.3"), ("1.15", "1.27"), ("1.2", "1.22")])
-def test_phases_on_both_sides_of_grazing_are_not_transversal(phases):
-    tail = times("25.5", "26", "27", "28", "32", "40", "50", "55", "56", "57")
-    try:
-        found = step("first-impact", {"phases": times(*phases), "times": TO_25 + tail})
-    except Unproved:
-        return
-    assert not found.transversal
+@pytest.mark.parametrize(("latest", "phase"), [(25, "1.15"), (50, "1.2"), (100, "1.57")])
+def test_an_impact_that_is_too_late_is_none(latest, phase):
+    with pytest.raises(Unproved, match="before the time"):
+        places(phase, phase, latest)
 
 
 # -- f at a phase, and on an interval --------------------------------------------------------------
@@ -242,58 +172,55 @@ def test_slopes_across_a_graze_or_where_sticking_begins_are_refused(points):
 # -- avoids ----------------------------------------------------------------------------------------
 
 
-def gap_flights():
-    return {
-        "a": step("first-impact", {"phases": times("1.14", "1.145"), "times": [*TO_25, "51/2"]}),
-        "b": step("first-impact", {"phases": times("1.145", "1.15"), "times": [*TO_25, "51/2"]}),
-        "thin": step("first-impact", IMPACT_115),
-    }
+def avoided(target, *points):
+    """What is proved of f, whose values on [1.14, 1.15] are [1.283..., 1.343...]."""
+    points = points or ("1.14", "1.1425", "1.145", "1.1475", "1.15")
+    witness = {"function": F, "points": times(*points), "target": times(*target)}
+    return step("avoids", witness)
 
 
-def test_avoids():
-    """f([1.14, 1.15]) = [1.283..., 1.343...]; the windows allow [1.0073, 1.5173]."""
-    found = step("avoids", {"flights": ["a", "b"], "target": times("2", "6")}, gap_flights())
-    assert found.phases == (Fraction("1.14"), Fraction("1.15"))
-    assert found.target == (2, 6)
-    assert step("avoids", {"flights": ["b", "thin"], "target": times("0", "1")}, gap_flights())
+@pytest.mark.parametrize("target", [("2", "6"), ("1.35", "6.28"), ("0", "1.27")])
+def test_avoids(target):
+    found = avoided(target)
+    assert found.source == (Fraction("1.14"), Fraction("1.15"))
+    assert found.target == tuple(map(Fraction, target))
 
 
 @pytest.mark.parametrize(
     "target", [("1.3", "1.32"), ("1.34", "6"), ("0", "1.29"), ("0", "6.28"), ("1.34308", "1.34309")]
 )
 def test_avoids_refuses_a_target_that_is_entered(target):
-    refused(
-        "avoids", {"flights": ["a", "b"], "target": times(*target)}, gap_flights(), "miss", Unproved
-    )
+    with pytest.raises(Unproved, match="miss"):
+        avoided(target)
 
 
-def test_avoids_needs_flights_that_follow_one_another():
-    flights = gap_flights()
-    later = replace(flights["b"].motion, phases=(Fraction("1.146"), Fraction("1.15")))
-    flights["later"] = replace(flights["b"], motion=later)
-    witness = {"flights": ["a", "later"], "target": times("2", "6")}
-    refused("avoids", witness, flights, "do not continue")
+@pytest.mark.parametrize(
+    ("target", "points", "reason"),
+    [
+        (("6", "2"), (), "reversed"),
+        (("2", "2"), (), "no interval"),
+        (("6", "6.2832"), (), "straddles"),
+        (("2", "6"), ("1.15", "1.14"), "increase"),
+        (("2", "6"), ("1.14", "1.14"), "increase"),
+        (("2", "6"), ("1.14",), "entries"),
+        (("2", "6"), ("1.14", "6.29"), "straddles"),
+        (("2", "6"), ("4", "4.1"), "right after launch"),
+    ],
+)
+def test_avoids_is_about_two_intervals(target, points, reason):
+    with pytest.raises((Unproved, Malformed), match=reason):
+        avoided(target, *points)
 
 
-def test_avoids_counts_every_window():
-    """A flight that may have its impact early or late must miss the target with both."""
-    grazing = step(
-        "first-impact",
-        {
-            "phases": times("1.2", "1.2"),
-            "times": [
-                *TO_25,
-                *times("25.5", "26", "26.5", 28, 30, 34),
-                *times(38, 42, 46, 50, 54, 55, 56, "56.1", "56.3"),
-            ],
-        },
-    )
-    assert len(grazing.windows) > 1
-    late = (Fraction("56.1") + Fraction("1.2")) % Fraction("6.283185307")
-    early = (Fraction("25.9") + Fraction("1.2")) % Fraction("6.283185307")
-    for centre in (late, early):
-        target = times(centre, centre + Fraction("0.01"))
-        refused("avoids", {"flights": ["g"], "target": target}, {"g": grazing}, "miss", Unproved)
+@pytest.mark.parametrize(("target", "holds"), [("1.94", 0), ("0.82", 0), ("1.3", 1), ("3", 1)])
+def test_avoids_counts_every_impact_that_may_be_the_first(target, holds):
+    """At the graze f jumps from 1.941606... to 0.819753...: launches around it have both."""
+    ends, points = (target, Fraction(target) + Fraction(1, 100)), ("1.1999", "1.2001")
+    if holds:
+        assert avoided(ends, *points)
+    else:
+        with pytest.raises(Unproved, match="miss"):
+            avoided(ends, *points)
 
 
 @pytest.mark.parametrize(
@@ -314,8 +241,9 @@ def test_avoids_counts_every_window():
     ],
 )
 def test_meets_mod_two_pi(phases, time, target, expected):
-    ranges = [tuple(map(Fraction, pair)) for pair in (phases, time, target)]
-    assert comes_to(PAPER.place, *ranges) is expected
+    values = tuple(Fraction(x) + Fraction(t) for x, t in zip(phases, time, strict=True))
+    target = tuple(map(Fraction, target))
+    assert meets(PlasticMap(PAPER.place), values, target) is expected
 
 
 @pytest.mark.slow
@@ -328,7 +256,7 @@ def test_meets_mod_two_pi(phases, time, target, expected):
 )
 def test_what_meets_is_never_missed(time, width, start, length):
     target = (start, min(start + length, Fraction(628, 100)))
-    if not comes_to(PAPER.place, (Fraction(0), Fraction(0)), (time, time + width), target):
+    if not meets(PlasticMap(PAPER.place), (time, time + width), target):
         low, high = time - target[1], time + width - target[0]
         assert not any(low <= turns <= high for turns in TURNS)
 

@@ -6,6 +6,7 @@ from fractions import Fraction
 import pytest
 
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.differential import Avoids
 from proofs.trusted.kernel.images import ImageArc, image_arc
 from proofs.trusted.kernel.laps import SlopeRange
 from proofs.trusted.kernel.moran import MoranRoot
@@ -23,7 +24,7 @@ from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s32_sets.moran import Digits, NoGap
 from proofs.trusted.parameters import PAPER, Parameters
-from proofs.trusted.slopes import Avoids, Impact
+from proofs.trusted.slopes import Impact
 from proofs.trusted.verdicts import Verdict
 from tests.proofs.trusted.paper.steps import moved_to
 

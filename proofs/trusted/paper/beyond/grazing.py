@@ -152,11 +152,11 @@ def grazing_curve(_: Context, reader: Reader) -> GrazingCurve:
     """Rule `grazing-curve`: {n, epsilon, pieces, points, times, amplitudes}.
 
     Hypotheses: pieces and points are those of an arc over eta of zeros of `touch`, see `an_arc`,
-    p < 1 and 0 < t < T. For each piece, and all (eta, p) in it, by the rule `first-impact` with its
-    times: gap' > 0 up to the first of them (gap'' > 0 for epsilon = 0), and all is closed but two
-    windows; gap'' > 0 in the first, T is inside the second one, and gap' < 0 there. amplitudes:
-    ranges that contain nu at the points. Conclusion: lemma 2, with relative acceleration > 0 at
-    t_G.
+    p < 1 and 0 < t < T. For each piece, and all (eta, p) in it: gap' > 0 up to the first of its
+    times (gap'' > 0 for epsilon = 0), and all pieces between them are closed, as in `separation`,
+    but two windows; gap'' > 0 in the first, T is inside the second one, and gap' < 0 there.
+    amplitudes: ranges that contain nu at the points. Conclusion: lemma 2, with relative
+    acceleration > 0 at t_G.
 
     Proof. gap = gap' = 0 at t_G, in (0, T), so t_G is in no closed piece, nor in the second window:
     it is in the first, and the only zero there. The derivative of F by p and t is regular, so t_G

@@ -34,12 +34,12 @@ def _named(cells: Sequence[Range]) -> str:
 
 
 def _earliest(arc: Separation, landing: Lands | None) -> Fraction:
-    """Return a phase after which a mass sticks, up to phi_s, or does so at its next impact."""
+    """Return a short decimal: after that a mass sticks, up to phi_s, or at its next impact."""
     if landing is None:
-        return arc.start[1]
+        return Fraction(ceil_text(arc.start[1]))
     if landing.at != arc.at or landing.phases[1] < arc.start[1]:
         raise Unproved("the launches that land on the arc are not known up to it")
-    return landing.phases[0]
+    return Fraction(ceil_text(landing.phases[0]))
 
 
 @dataclass(frozen=True)
@@ -112,7 +112,7 @@ class ReturningMotion(Conclusion):
         sticks = "sticks until phi_s" + (", perhaps after one more impact," if self.landing else "")
         return (
             f"{self.brief}: it has{each} a last one at a phase, mod 2 pi, after "
-            f"{ceil_text(_earliest(self.arc, self.landing))} and up to {show(self.beyond[1])}, "
+            f"{show(_earliest(self.arc, self.landing))} and up to {show(self.beyond[1])}, "
             f"where the mass {sticks} if it is before phi_s, in {between(self.arc.phase)}, and "
             "leaves at once if it is after that. It attracts all motions that have an impact "
             "between these two phases."
@@ -218,8 +218,8 @@ def sticking_motion(
     """Theorem. Let f be C^1 on sets C_1, ..., C_n of phases. Let the first impact after the
     separation at phi_s, and those after the launches beyond it, in (phi_s, u], be in C_1,
     f(C_i) inside C_(i+1), and f(C_n), or for n = 0 the first impacts, inside (b, u), where after
-    each launch between b and the arc the first impact is on the arc; without `landing`, b is where
-    the arc starts, without `beyond`, u is phi_s. If there is a `beyond`, let the product of
+    each launch between b and the arc the first impact is on the arc; without `landing`, b is in the
+    arc, without `beyond`, u is phi_s. If there is a `beyond`, let the product of
     sup |f'| on (phi_s, u] and on all C_i be below 1. Then what the conclusion's sentence says.
 
     Proof. The mass leaves the arc at phi_s, whatever the phase at which it came to stick, and what

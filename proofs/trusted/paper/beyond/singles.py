@@ -281,8 +281,8 @@ def stable_singles(context: Context, reader: Reader) -> StableSingles:
 
     The box is cut at multiples of 1/(2 n), each part evenly into `cuts`. For n in `stable` it is in
     one part, and in all that this is cut into delta > 0, v > 0, F < 0, and nothing is hit before T:
-    by the rule `first-impact` with its times (gap' > 0 up to the first of them is enough after a
-    rebound), T being inside of the window; without times by lemma 4. For each other n up to `most`,
+    with times as in `separation` (gap'' > 0 up to the first of them, or gap' > 0 after a rebound),
+    T being inside of the window; without times by lemma 4. For each other n up to `most`,
     where `none` does not name it without cuts and times, there are in each part no motions, by
     lemma 3 or as delta < 0; or F > 0; or, for plastic impacts, launch acceleration <= 0; or gap < 0
     at one of the times, in (0, T). Conclusion: `StableSingles`. Proof. Lemmas 1 to 4.

@@ -52,11 +52,12 @@ from typing import Any
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import Clock, clock, launch_acceleration, sincos, slope
-from proofs.trusted.flights import FirstImpact, Motion
+from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Dual, Enclosure, Unproved, pi, rational
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.numbers import COVER_BITS, MAX_BITS, TURN, Range, between, show, within
+from proofs.trusted.numbers import COVER_BITS, MAX_BITS, TURN, Range, between, show
+from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.parameters import Place
 
 _MOST_PERIODS = 10**6
@@ -171,19 +172,19 @@ class Solution(Conclusion):
         )
 
 
-def single_solution(context: Context, reader: Reader) -> Solution:
-    """Rule `single-solution`: {eta, nu, n, phase: [lo, hi], early: time or null, flight: or null}.
+def single_solution(_: Context, reader: Reader) -> Solution:
+    """Rule `single-solution`: {eta, nu, n, phase: [lo, hi], early: time or null, latest: or null}.
 
     Hypotheses: n eta is no integer; K changes its sign between lo and hi, dK/dphi has one sign
-    there; at the time `early`, in (0, 2 pi n), gap < 0 for all launches from the bracket; the
-    earlier step `flight` proves a transversal first impact for all of them, and 2 pi n is inside
-    its window. Conclusion: K and (16) have exactly one zero in between; its flight has an earlier
-    impact, if `early` is given; 2 pi n is its first impact, if `flight` is given. Proof. K is a
+    there; at the time `early`, in (0, 2 pi n), gap < 0 for all launches from the bracket; first
+    impacts of all of them are found by `latest`, and 2 pi n is inside their window (see
+    `FirstZero`). Conclusion: K and (16) have exactly one zero in between; its flight has an earlier
+    impact, if `early` is given; 2 pi n is its first impact, if `latest` is given. Proof. K is a
     factor of (16), by lemma 1 the one that may vanish, and monotone on the bracket. gap = 0 at 2
     pi n, and gap has one zero in the window. The multiplier is from the slope formula.
     """
-    eta_of, nu_of, n_of, phase_of, early_of, flight_of = reader.fields(
-        "eta", "nu", "n", "phase", "early", "flight"
+    eta_of, nu_of, n_of, phase_of, early_of, latest_of = reader.fields(
+        "eta", "nu", "n", "phase", "early", "latest"
     )
     eta, nu, periods, phase = eta_of.number(), nu_of.number(), n_of.number(), phase_of.range()
     n, at = int(periods), Place.plastic(eta, nu)
@@ -210,16 +211,9 @@ def single_solution(context: Context, reader: Reader) -> Solution:
         raise Unproved("the gap is not proved negative at the earlier time")
     factor, acceleration = slope(start, clock(own_eta, whole)), launch_acceleration(start)
     found = Solution(at, n, phase, factor.range, acceleration.range, early)
-    if flight_of.is_null():
+    if latest_of.is_null():
         return found
-    _require_first(context.step(flight_of, FirstImpact), whole.range, found)
-    return replace(found, first=True)
-
-
-def _require_first(flight: FirstImpact, whole: Range, solution: Solution) -> None:
-    """Require that the first impact of all launches from a bracket is transversal, near 2 pi n."""
-    if solution.at != flight.at or not within(solution.phase, flight.motion.phases):
-        raise Unproved("a flight is about other parameters or phases")
-    begin, end = flight.windows[0]
-    if not (flight.transversal and begin < whole[0] and whole[1] < end):
+    begin, end = PlasticMap(at, latest_of.number()).window((Enclosure.of(*phase, bits),))
+    if not (begin < whole.range[0] and whole.range[1] < end):
         raise Unproved("the first impact is not proved to be after n periods")
+    return replace(found, first=True)

@@ -3,10 +3,20 @@
 from fractions import Fraction
 from functools import cache
 
+import sympy
+
 from proofs.methods.arcs import follow, thin
 from proofs.methods.lemmas import Lemmas
 from proofs.methods.symbolic import SymbolicLemmas
-from proofs.trusted.equations import AT_LAUNCH, clock, gap, launch, launch_acceleration, slope
+from proofs.trusted.equations import (
+    AT_LAUNCH,
+    clock,
+    gap,
+    launch,
+    launch_acceleration,
+    registered_sincos,
+    slope,
+)
 from proofs.trusted.files import render
 from proofs.trusted.kernel.values import Equal, Series
 from tests.proofs.trusted.kernel.lines import Lines
@@ -20,49 +30,8 @@ def henon(a, b):
     return (["x", "y"], [f"1 - {a}*x**2 + y", f"{b}*x"])
 
 
+registered_sincos.register(sympy.Expr, lambda x: (sympy.sin(x), sympy.cos(x)))
 HENON_FIXED = (["x", "y"], ["1 - 7/5*x**2 + y - x", "3/10*x - y"])
-
-
-class Written:
-    """A number type that writes down what is computed: the shared equations as a text."""
-
-    def __init__(self, text):
-        self.text = text
-
-    def _with(self, op, other, swapped=False):
-        pair = [self.text, other.text if isinstance(other, Written) else str(other)]
-        left, right = (part if part.isalnum() else f"({part})" for part in pair[:: 1 - 2 * swapped])
-        return Written(f"{left}{op}{right}")
-
-    def __add__(self, other):
-        return self._with(" + ", other)
-
-    def __radd__(self, other):
-        return self._with(" + ", other, True)
-
-    def __sub__(self, other):
-        return self._with(" - ", other)
-
-    def __rsub__(self, other):
-        return self._with(" - ", other, True)
-
-    def __mul__(self, other):
-        return self._with("*", other)
-
-    def __rmul__(self, other):
-        return self._with("*", other, True)
-
-    def __truediv__(self, other):
-        return self._with("/", other)
-
-    def __pow__(self, n):
-        return Written(f"({self.text})**{n}")
-
-    def __neg__(self):
-        return Written(f"-({self.text})")
-
-    def sincos(self):
-        return Written(f"sin({self.text})"), Written(f"cos({self.text})")
 
 
 # -- the files -------------------------------------------------------------------------------------
@@ -150,17 +119,17 @@ def cubic():
 
 def gap_identities():
     """d gap / dt, d^2 gap / dt^2, and d gap / dt - d gap / d phi, by exact normal forms."""
-    eta, nu, phi, t = map(Written, ("eta", "nu", "phi", "t"))
+    eta, nu, phi, t = sympy.symbols("eta nu phi t")
     start, now = launch(1, eta, nu, phi), clock(eta, t)
     g, rate, acceleration = (gap(start, now, order) for order in range(3))
     right = now.mass_sin / eta * launch_acceleration(start)
     file = Lemmas()
-    file.equal(f"D({g.text}, t)", rate.text)
-    file.equal(f"D({rate.text}, t)", acceleration.text)
-    file.equal(f"D({g.text}, t, t)", acceleration.text)
-    file.equal(f"D({g.text}, phi)", (rate - right).text)
-    file.equal((slope(start, now) * rate).text, right.text)
-    file.equal(f"at({acceleration.text}, t=0)", gap(start, AT_LAUNCH, 2).text)
+    file.equal(f"D({g}, t)", str(rate))
+    file.equal(f"D({rate}, t)", str(acceleration))
+    file.equal(f"D({g}, t, t)", str(acceleration))
+    file.equal(f"D({g}, phi)", str(rate - right))
+    file.equal(f"({slope(start, now)})*({rate})", str(right))
+    file.equal(f"at({acceleration}, t=0)", str(gap(start, AT_LAUNCH, 2)))
     return file
 
 

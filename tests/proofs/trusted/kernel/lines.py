@@ -24,16 +24,10 @@ def slopes(function, *points):
     return {"rule": "slopes", "witness": witness}
 
 
-def halved(low, high, depth):
-    """A tree that cuts an interval evenly."""
-    middle = (F(low) + F(high)) / 2
-    halves = (halved(low, middle, depth - 1), halved(middle, high, depth - 1)) if depth else ()
-    return ["1", str(middle), *halves] if depth else None
-
-
-def gap(function, box, bounds):
-    witness = {"function": function, "box": [box], "tree": halved(*box, 6), "bounds": [bounds]}
-    return {"rule": "image", "witness": witness}
+def gap(function, source, target):
+    low, high = map(F, source)
+    points = [str(low + (high - low) * k / 64) for k in range(65)]
+    return {"rule": "avoids", "witness": {"function": function, "points": points, "target": target}}
 
 
 def staying(region, cells, gaps):
@@ -44,12 +38,12 @@ def staying(region, cells, gaps):
 STEPS = {
     "left": slopes("F", "0", "1/8", "1/4", "7/25"),
     "right": slopes("F", "18/25", "3/4", "7/8", "1"),
-    "middle": gap("F", ["7/25", "18/25"], ["1001/1000", "2"]),
+    "middle": gap("F", ["7/25", "18/25"], ["0", "1"]),
     "low": slopes("G", "1/2", "53/100"),
     "high": slopes("G", "159/200", "401/500"),
     "first": slopes("H", SHOE[0], "3/2", "41/20"),
     "last": slopes("H", "77/25", "7/2", SHOE[1]),
-    "between": gap("H", ["41/20", "77/25"], ["83/20", "29/4"]),
+    "between": gap("H", ["41/20", "77/25"], SHOE),
     "set": staying([["0", "1"]], [("left", ENDS[0]), ("right", ENDS[1])], ["middle"]),
     "covering": {
         "rule": "covering-graph",

@@ -4,91 +4,75 @@ from fractions import Fraction
 from typing import NamedTuple
 
 TURN = {"phi": "2*pi"}
+
+
+def at(**numbers):
+    """Parameters at one value each."""
+    return {name: [value, value] for name, value in numbers.items()}
+
+
+def motion(name, form, equation, *start):
+    return {"name": name, "form": form, "equation": equation, "start": list(start)}
+
+
 OSCILLATOR = {  # the paper's, of nu < 0
     "variables": ["phi", "gamma"],
-    "parameters": {
-        "eta": ["2121/10000", "2121/10000"],
-        "nu": ["-1/5", "-1/5"],
-        "epsilon": ["1/100", "1/100"],
-    },
+    "parameters": at(eta="2121/10000", nu="-1/5", epsilon="1/100"),
     "periods": TURN,
     "time": "t",
     "motion": [
-        {
-            "name": "q",
-            "form": "(1 + nu*sin(phi))*cos(eta*t) + (nu*cos(phi) + epsilon*(eta*gamma "
+        motion(
+            "q",
+            "(1 + nu*sin(phi))*cos(eta*t) + (nu*cos(phi) + epsilon*(eta*gamma "
             "+ nu*cos(phi)))/eta*sin(eta*t)",
-            "equation": "-eta**2*q",
-            "start": ["1 + nu*sin(phi)", "nu*cos(phi) + epsilon*(eta*gamma + nu*cos(phi))"],
-        }
+            "-eta**2*q",
+            "1 + nu*sin(phi)",
+            "nu*cos(phi) + epsilon*(eta*gamma + nu*cos(phi))",
+        )
     ],
     "gaps": ["1 + nu*sin(phi + t) - q"],
     "values": ["phi + t", "-D(q, t)/eta"],
 }
 BALL = {  # on a vibrating table
     "variables": ["phi", "v"],
-    "parameters": {"g": ["1/10", "1/10"], "e": ["1/2", "1/2"]},
+    "parameters": at(g="1/10", e="1/2"),
     "periods": TURN,
     "time": "t",
-    "motion": [
-        {
-            "name": "y",
-            "form": "sin(phi) + v*t - g*t**2/2",
-            "equation": "-g",
-            "start": ["sin(phi)", "v"],
-        }
-    ],
+    "motion": [motion("y", "sin(phi) + v*t - g*t**2/2", "-g", "sin(phi)", "v")],
     "gaps": ["y - sin(phi + t)"],
     "values": ["phi + t", "(1 + e)*cos(phi + t) - e*D(y, t)"],
 }
 DAMPED = {  # a forced and damped oscillator at a wall at x = s, restitution r
     "variables": ["phi", "v"],
-    "parameters": {
-        "w": ["14/5", "14/5"],
-        "d": ["1/20", "1/20"],
-        "s": ["1/5", "1/5"],
-        "r": ["4/5", "4/5"],
-    },
+    "parameters": at(w="14/5", d="1/20", s="1/5", r="4/5"),
     "periods": TURN,
     "time": "t",
     "motion": [
-        {
-            "name": "x",
-            "form": "cos(phi + w*t) + exp(-d*t)*((s - cos(phi))*cos(t) "
+        motion(
+            "x",
+            "cos(phi + w*t) + exp(-d*t)*((s - cos(phi))*cos(t) "
             "+ (v + w*sin(phi) + d*(s - cos(phi)))*sin(t))",
-            "equation": "-2*d*D(x, t) - (1 + d**2)*x + (1 + d**2 - w**2)*cos(phi + w*t) "
-            "- 2*d*w*sin(phi + w*t)",
-            "start": ["s", "v"],
-        }
+            "-2*d*D(x, t) - (1 + d**2)*x + (1 + d**2 - w**2)*cos(phi + w*t) - 2*d*w*sin(phi + w*t)",
+            "s",
+            "v",
+        )
     ],
     "gaps": ["s - x"],
     "values": ["phi + w*t", "-r*D(x, t)"],
 }
 RATTLE = {  # a gear's tooth with drag between two walls that vibrate: from the lower to the upper
     "variables": ["phi", "v"],
-    "parameters": {"b": ["1/4", "1/4"], "c": ["1/10", "1/10"], "e": ["3/5", "3/5"]},
+    "parameters": at(b="1/4", c="1/10", e="3/5"),
     "periods": TURN,
     "time": "t",
-    "motion": [
-        {
-            "name": "x",
-            "form": "b*sin(phi) + v*(1 - exp(-c*t))/c",
-            "equation": "-c*D(x, t)",
-            "start": ["b*sin(phi)", "v"],
-        }
-    ],
+    "motion": [motion("x", "b*sin(phi) + v*(1 - exp(-c*t))/c", "-c*D(x, t)", "b*sin(phi)", "v")],
     "gaps": ["b*sin(phi + t) + 1 - x", "x - b*sin(phi + t)"],
     "values": ["phi + t", "(1 + e)*b*cos(phi + t) - e*D(x, t)"],
 }
 RATTLE_BACK = {  # and from the upper one to the lower
     **RATTLE,
     "motion": [
-        {
-            "name": "x",
-            "form": "b*sin(phi) + 1 + v*(1 - exp(-c*t))/c",
-            "equation": "-c*D(x, t)",
-            "start": ["b*sin(phi) + 1", "v"],
-        }
+        motion("x", "b*sin(phi) + 1 + v*(1 - exp(-c*t))/c", "-c*D(x, t)", "b*sin(phi) + 1", "v")
     ],
     "gaps": RATTLE["gaps"][::-1],
 }
@@ -96,15 +80,8 @@ FAR = {**DAMPED, "parameters": {**DAMPED["parameters"], "s": ["11/10", "11/10"]}
 RESTING = {  # the ball, in contact: its velocity is the table's
     **BALL,
     "variables": ["phi"],
-    "parameters": {"g": ["1/2", "1/2"]},
-    "motion": [
-        {
-            "name": "y",
-            "form": "sin(phi) + cos(phi)*t - g*t**2/2",
-            "equation": "-g",
-            "start": ["sin(phi)", "cos(phi)"],
-        }
-    ],
+    "parameters": at(g="1/2"),
+    "motion": [motion("y", "sin(phi) + cos(phi)*t - g*t**2/2", "-g", "sin(phi)", "cos(phi)")],
     "values": ["phi + t"],
 }
 _NORMAL = "((u*b*sin(x) + D(y, t) - c*cos(phi + t))/(1 + b**2*sin(x)**2))"
@@ -119,13 +96,8 @@ BILLIARD = {  # a ball over a wavy floor that vibrates; g is any number of a ran
     "periods": {"phi": "2*pi", "s": "2*pi"},
     "time": "t",
     "motion": [
-        {"name": "x", "form": "s + u*t", "equation": "0", "start": ["s", "u"]},
-        {
-            "name": "y",
-            "form": "b*cos(s) + c*sin(phi) + w*t - g*t**2/2",
-            "equation": "-g",
-            "start": ["b*cos(s) + c*sin(phi)", "w"],
-        },
+        motion("x", "s + u*t", "0", "s", "u"),
+        motion("y", "b*cos(s) + c*sin(phi) + w*t - g*t**2/2", "-g", "b*cos(s) + c*sin(phi)", "w"),
     ],
     "gaps": ["y - b*cos(x) - c*sin(phi + t)"],
     "values": [

@@ -6,10 +6,12 @@ from fractions import Fraction
 from itertools import combinations, pairwise, product
 
 import flint
+import numpy as np
 import pytest
 
 from intervals import Undecided
 from proofs.methods.formulas import inverse
+from proofs.methods.symbolic import SymbolicLemmas
 from proofs.trusted.certificate import SCHEMA, Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.covers import HSet, disjoint
@@ -374,6 +376,33 @@ def test_forms_belong_to_their_sets():
         refused(document, "cone condition")
     witness_of(document, "cone")["forms"] = [["3"], ["4"]]
     assert "one-sided" in check(json.dumps(document)).sentences[0]
+
+
+def test_orbits_under_cones_are_hyperbolic():
+    """Henon's fixed points at (5, 0.3): det F' = -0.3 and the trace is -10 x, x = -0.535, 0.402."""
+    sentence = check(json.dumps(only(file("henon_horseshoe"), "cone-1"))).sentences[0]
+    assert sentence.endswith("uniformly hyperbolic, with 1 unstable and 1 stable direction.")
+    for x in np.roots([5, 0.7, -1]):
+        assert sorted(abs(np.linalg.eigvals([[-10 * x, 1], [0.3, 0]])) > 1) == [False, True]
+    sentence = check(json.dumps(only(file("logistic"), "cone-1"))).sentences[0]
+    assert sentence.endswith("to the one-sided shift on paths, and uniformly expanding.")
+
+
+@pytest.mark.parametrize(
+    ("after", "is_hyperbolic"), [(["1", "-1"], True), (["1", "1"], False), (["1", "0"], False)]
+)
+def test_forms_of_different_signs_split_no_directions(after, is_hyperbolic):
+    """(3 x, y / 2), from one square to another: where signs change, directions would be lost."""
+    lemmas = SymbolicLemmas({"F": (["x", "y"], ["3*x", "y/2"])})
+    one, two = (
+        lemmas.h_set([x, "0"], [[r, "0"], ["0", "1"]]) for x, r in (("0", "1"), ("2", "1/2"))
+    )
+    graph = lemmas.graph([lemmas.covers("F", 1, one, two)])
+    name = lemmas.cone(graph, ["1", "-1"])
+    document = json.loads(lemmas.certificate(name))
+    document["steps"][name]["witness"]["forms"][1] = after
+    sentence = check(json.dumps(document)).sentences[0]
+    assert ("hyperbolic" in sentence) is is_hyperbolic
 
 
 def test_cone_bounds_must_hold():

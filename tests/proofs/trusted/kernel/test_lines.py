@@ -76,11 +76,17 @@ def test_a_root_for_three_ratios():
 
 
 LIES = [
-    ("middle", ["witness", "bounds"], [["1/2", "2"]], "avoid"),
+    ("middle", ["witness", "target"], ["0", "99/100"], "avoid the region"),
+    ("middle", ["witness", "target"], ["0", "101/100"], "miss the target"),
+    ("middle", ["witness", "target"], ["1", "1"], "no interval"),
+    ("middle", ["witness", "points"], ["7/25", "18/25"], "miss the target"),
+    ("middle", ["witness", "points"], ["18/25", "7/25"], "increase"),
+    ("middle", ["witness", "points"], ["7/25"], "entries"),
+    ("middle", ["witness", "function"], "G", "miss the target"),
     ("set", ["witness", "gaps"], [], "cover"),
     ("set", ["witness", "gaps"], ["between"], "different maps"),
     ("set", ["witness", "cells", 0, "slopes"], "low", "not two points"),
-    ("set", ["witness", "region"], [["-1/100", "1"]], "cover"),
+    ("set", ["witness", "region"], [["-1/100", "1"]], "avoid the region"),
     ("set", ["witness", "region"], [["1", "1"]], "no interval"),
     ("left", ["witness", "function"], "G", "different maps"),
     ("left", ["witness", "points"], ["0", "7/25", "1/4"], "increase"),
@@ -98,8 +104,11 @@ LIES = [
     ("orbit", ["witness", "cells", 0, "slopes"], "left", "not two points"),
     ("high", ["witness", "function"], "F", "different maps"),
     ("low", ["witness", "points"], ["1/5", "53/100"], "not two points"),
-    ("between", ["witness", "bounds"], [["4", "29/4"]], "avoid"),
-    ("between", ["witness", "bounds"], [["83/20", "73/10"]], "avoid"),  # 7.3 - 2 pi is inside
+    ("between", ["witness", "target"], ["1", "2071/500"], "avoid the region"),
+    ("between", ["witness", "target"], ["39/50", "2071/500"], "miss"),  # H(77/25) - 2 pi is 0.787
+    ("between", ["witness", "target"], ["999/1000", "433/100"], "miss"),  # H(41/20) is 4.323
+    ("between", ["witness", "target"], [SHOE[0], "63/10"], "straddles"),
+    ("between", ["witness", "points"], ["41/20", "63/10"], "straddles"),
     ("first", ["witness", "points"], ["-1/2", "3/2", "41/20"], "one turn"),
     ("first", ["witness", "points"], [SHOE[0], "3/2", "8"], "one turn"),
     ("shoe", ["witness", "region"], [["-1/10", "2071/500"]], "straddles"),

@@ -376,6 +376,19 @@ def test_the_last_impact_may_be_after_the_arc():
     assert F("0.05") < found.contraction < F("0.07")  # times 18/7 and 1/11
 
 
+def test_the_last_impact_is_after_the_phase_that_is_written():
+    """That is 3.400001, for an arc that starts before 3.4000001."""
+    beyond = affine("5.9999", "6.2", "6.1", "6.05")
+    for low in (F("3.4000005"), F("3.400001")):
+        early = replace(arc(4), start=(F("3.39"), F("3.4000001")), arrival=(low, F(4)))
+        with pytest.raises(Unproved, match="last impact"):
+            sticking_motion(early, (), beyond)
+        with pytest.raises(Unproved):
+            ReturningMotion(early, beyond.ends, (), F(1, 2))
+    found = sticking_motion(replace(early, arrival=(F("3.400002"), F(4))), (), beyond)
+    assert "after 3.400001 and up to 6.2" in found.sentence
+
+
 def test_sets_may_pass_phase_0():
     turn = F("6.283185307179586")
     beyond = affine("5.9999", "6.5", "6.25", "6.35")

@@ -17,16 +17,16 @@ from proofs.motion.witness import FlightBox
 from proofs.plane.horseshoe import propose
 from proofs.plane.settling import settles, stays_stable, sticks
 from proofs.plane.steps import times_for
-from proofs.trusted.certificate import Malformed, Reader, texts
-from proofs.trusted.flights import FirstImpact, Motion, first_impact
+from proofs.trusted.certificate import Malformed, Reader
+from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.coverings import EntropyBound
+from proofs.trusted.kernel.gaps import first_windows
 from proofs.trusted.paper.beyond.attractors import AllStick, AtRest, Leaves, NeverSticks
 from proofs.trusted.paper.beyond.returning import ReturningMotion, StickingMotion
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.rules import find_rule
-from proofs.trusted.slopes import avoids
 from proofs.trusted.verify import Rejected, check, premises
 from tests.oracles.judge import oracle
 from tests.proofs.trusted.paper import reference
@@ -162,14 +162,11 @@ def test_a_box_says_nothing_of_claims_nor_of_rules_for_one_oscillator():
         branch(Context(BOX, {}, known), Reader(witness))
 
 
-def test_an_earlier_impact_must_be_excluded():
-    """The second set's flights pass close to the table at the first set's impacts."""
+def test_an_earlier_impact_is_the_one_that_counts():
+    """Between both sets launches graze: with these the impacts after the second are no windows."""
     made = document()
-    flights = [each["witness"] for each in made["steps"].values() if "times" in each["witness"]]
-    times = flights[-1]["times"]
-    flights[-1]["times"] = [each for each in times if not 20 < F(each) < 30]
-    assert len(flights[-1]["times"]) < len(times)
-    rejected(made)
+    graph_of(made)[1][-1]["cuts"][0] = "119/100"
+    rejected(made, "graze|transversal")
 
 
 def graph_of(made):
@@ -179,14 +176,21 @@ def graph_of(made):
 
 def halved(made):
     """f maps the lower half of a set over the lower half of them all, at most."""
-    flight = next(each["witness"] for each in made["steps"].values() if "times" in each["witness"])
-    low, high = map(F, flight["phases"])
-    flight["phases"] = [str(low), str((low + high) / 2)]
+    cuts = graph_of(made)[1][0]["cuts"]
+    cuts[:] = [cuts[0], str((F(cuts[0]) + F(cuts[-1])) / 2)]
 
 
 def twice(made):
     branch = graph_of(made)[1][0]
-    branch["flights"] *= 2
+    branch["cuts"] *= 2
+
+
+def backwards(made):
+    graph_of(made)[1][0]["cuts"].reverse()
+
+
+def beyond_a_turn(made):
+    graph_of(made)[1][0]["cuts"] = ["6", "13/2"]
 
 
 def later(made, turns):
@@ -194,7 +198,9 @@ def later(made, turns):
 
 
 SHIFT_LIES = {
-    "a flight twice": twice,
+    "a set twice": twice,
+    "backwards": backwards,
+    "a set past 2 pi": beyond_a_turn,
     "half a set": halved,
     "images after 3 turns": partial(later, turns="3"),
     "images after 5 turns": partial(later, turns="5"),
@@ -206,26 +212,6 @@ def test_a_forged_full_shift_is_refused(lie):
     made = document()
     SHIFT_LIES[lie](made)
     rejected(made, error=(Rejected, Malformed))
-
-
-@pytest.mark.parametrize(
-    ("change", "match"),
-    [({"transversal": False}, "not transversal"), ({"at": PAPER.place}, "different oscillators")],
-)
-def test_a_branch_is_of_transversal_impacts_of_one_oscillator(change, match):
-    known = premises(text()).known
-    one, two = [name for name, x in known.items() if isinstance(x, FirstImpact)][:2]
-    (low, high), motion = known[one].motion.phases, known[one].motion
-    known[two] = replace(known[one], motion=replace(motion, phases=(high, 2 * high - low)))
-    witness = {"flights": [one, two], "turn": "4"}
-    assert find_rule("branch")(Context(BOX, {}, known), Reader(witness)).cuts[1] == high
-    later = replace(motion, phases=(high + F(1, 10**9), 2 * high - low))
-    with pytest.raises(Unproved, match="do not follow one another"):
-        apart = {**known, two: replace(known[one], motion=later)}
-        find_rule("branch")(Context(BOX, {}, apart), Reader(witness))
-    known[two] = replace(known[two], **change)
-    with pytest.raises(Unproved, match=match):
-        find_rule("branch")(Context(BOX, {}, known), Reader(witness))
 
 
 def test_two_sets_and_fewer_symbols_are_no_shift():
@@ -340,16 +326,12 @@ def test_launches_that_land_only_at_some_oscillators():
 
 def test_a_cell_that_passes_phase_0_is_no_set_in_order():
     made, steps, _ = at(ZERO)
-    phases = tuple(map(F, steps[0]["witness"]["points"]))
-    times = times_for(FlightBox.plastic(ZERO, phases), 26.0)
-    witness = {"phases": texts(phases), "times": texts(times)}
-    known = {"flight": first_impact(Context(ZERO), Reader(witness))}
+    points, function = (steps[0]["witness"][x] for x in ("points", "function"))
     with pytest.raises(Unproved, match="no interval of phases"):
-        find_rule("branch")(Context(ZERO, {}, known), Reader({"flights": ["flight"], "turn": "3"}))
-    with pytest.raises(Unproved, match="no interval of phases"):
-        avoids(Context(ZERO, {}, known), Reader({"flights": ["flight"], "target": ["1", "2"]}))
-    with pytest.raises(Malformed, match="between 0 and 4 pi"):
-        first_impact(Context(ZERO), Reader(witness | {"phases": [witness["phases"][0], "13"]}))
+        find_rule("branch")(Context(ZERO), Reader({"cuts": points, "turn": "3"}))
+    with pytest.raises(Unproved, match="straddles"):
+        witness = {"function": function, "points": points, "target": ["1", "2"]}
+        find_rule("avoids")(Context(ZERO), Reader(witness))
     steps[0]["witness"]["points"][0] = "0"
     rejected(made, "right after launch")
 
@@ -363,10 +345,12 @@ def test_flights_just_after_the_separation(low, holds):
     assert times[0] > F(1, 4)  # gap'' > 0 is seen for less
     motion = Motion(here, (F(low), phases[1]))
     assert motion.gap_of((F(0), times[0]), 2).lo <= 0 < motion.gap_of((F(0), times[0]), 3).lo
-    witness = Reader({"phases": texts((F(low), phases[1])), "times": texts(times)})
     if holds:
-        found = first_impact(Context(here), witness)
-        assert oracle(found, random.Random(5)) == []
+        ((begin, end),), transversal = first_windows(motion.gap_of, times, 2, 3)
+        assert transversal
+        for phase in (F(low), F("6.05"), phases[1]):
+            time = reference.first_impact(mpf("0.2121"), mpf("-0.2"), mpf(float(phase)))[0]
+            assert begin < exact(time) < end
     else:
         with pytest.raises(Unproved, match="leave the table"):
-            first_impact(Context(here), witness)
+            first_windows(motion.gap_of, times, 2)

@@ -22,6 +22,7 @@ from proofs.trusted.certificate import Malformed
 from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.coverings import EntropyBound
+from proofs.trusted.kernel.differential import Avoids
 from proofs.trusted.kernel.laps import SlopeRange
 from proofs.trusted.kernel.staying import staying_set
 from proofs.trusted.numbers import Phase, Phases
@@ -30,7 +31,7 @@ from proofs.trusted.paper import find
 from proofs.trusted.paper.branches import Branch
 from proofs.trusted.paper.s34_circle.other_sets import PRINTED
 from proofs.trusted.parameters import PAPER
-from proofs.trusted.slopes import Avoids, Impact
+from proofs.trusted.slopes import Impact
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.windows import BITS, Meetings
 from tests.oracles.judge import oracle

@@ -174,9 +174,7 @@ OWN += ["moran-root", "itinerary", "staying-set", "covering-graph", "stable-orbi
 
 
 ACCEPTED = {  # what may be done to which field, in some places; all else is refused
-    "first-impact": "phases tighter narrowed looser aside collapsed nudged moved put_beside "
-    "put_to_1; times dropped nudged moved put_beside put_to_1",
-    "avoids": "flights dropped; target tighter narrowed nudged put_beside",
+    "avoids": "points dropped nudged moved put_beside; target tighter narrowed nudged put_beside",
     "moran-root": "ratios turned; root tighter looser widened",
     "itinerary": "slopes dropped swapped doubled_in_place added turned another; phase moved "
     "put_to_0 put_to_1",
@@ -209,7 +207,7 @@ ACCEPTED = {  # what may be done to which field, in some places; all else is ref
     "superstable-motion": "box tighter; cells added; bounces tighter looser widened nudged "
     "put_beside; ratio nudged; rest nudged",
     "passes-separation": "bounces tighter looser widened",
-    "single-solution": "phase tighter looser widened; n put_to_1",
+    "single-solution": "phase tighter looser widened; n put_to_1; latest other_type nudged moved",
     "single-below-windows": "low nudged; ends tighter looser widened",
     "single-eta-windows": "low nudged",
     "single-nu-windows": "above tighter looser widened; below tighter looser widened; early "

@@ -108,7 +108,7 @@ def test_the_corrected_sets_verify_as_they_are(outcome):
     [
         ("H16", set()),
         ("H11", {"moran-root"}),
-        ("H4", {"first-impact", "avoids"}),
+        ("H4", {"avoids"}),
         ("H1", {"slopes"}),
     ],
 )

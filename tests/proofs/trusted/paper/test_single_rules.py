@@ -12,6 +12,8 @@ from fractions import Fraction
 import pytest
 from mpmath import mp, mpf
 
+from proofs.motion.single_orbits import solutions
+from proofs.motion.system import System
 from proofs.search import s4_single
 from proofs.trusted.certificate import Malformed, Reader
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -99,7 +101,7 @@ def test_identities_are_proved_and_misprints_are_not(index):
 @pytest.mark.slow
 def test_solutions_are_not_talked_into(document):
     for given in steps_of(document, "single-solution"):
-        witness = {**given, "flight": None}
+        witness = {**given, "latest": None}
         found = derived("single-solution", witness)
         assert isinstance(found, Solution) and found.contracts == (abs(found.multiplier[0]) < 1)
         low, high = map(Fraction, witness["phase"])
@@ -116,7 +118,7 @@ def test_solutions_are_not_talked_into(document):
 def test_a_bracket_of_three_solutions_is_refused():
     """And one at resonance, where K changes its sign once while all phases solve (16)."""
     one = {"eta": "237/1000", "nu": "3/10", "n": "1", "phase": ["14/25", "57/100"]}
-    one |= {"early": None, "flight": None}
+    one |= {"early": None, "latest": None}
     assert derived("single-solution", one).contracts
     refused("single-solution", {**one, "phase": ["-29/5", "57/100"]})
     resonant = {"eta": "1", "phase": ["3/2", "8/5"]}
@@ -125,29 +127,26 @@ def test_a_bracket_of_three_solutions_is_refused():
 
 @pytest.mark.slow
 def test_orbits_are_not_talked_into(document):
-    known, flights = {}, {}
-    for name, step in document["steps"].items():
-        known[name] = derived(step["rule"], step["witness"], known)
-        if step["witness"].get("flight"):
-            flights[name] = step["witness"]
-    assert len(flights) == 2  # n = 4 and n = 9
-    (first, one), (_, other) = flights.items()
-    assert known[first].first and "is a fixed point of f" in known[first].sentence
-    assert not derived("single-solution", {**one, "flight": None}).first
-    assert abs(known[first].phase[0] - Fraction("1.1047758291275508478")) < 1e-18
-    refused("single-solution", {**one, "flight": other["flight"]}, known)
-    flight = known[one["flight"]]
-    begin, end = flight.windows[0]
-    for changed in (
-        replace(flight, transversal=False),
-        replace(flight, windows=((begin, Fraction("25.13")),)),
-        replace(flight, windows=((Fraction("25.14"), end),)),
-        replace(flight, at=Place.plastic(Fraction("0.2122"), PAPER.nu)),
-        replace(flight, at=Place.plastic(PAPER.eta, -PAPER.nu)),
-        replace(flight, motion=replace(flight.motion, phases=(Fraction(1), Fraction("1.1")))),
-        replace(flight, motion=replace(flight.motion, phases=(Fraction("1.2"), Fraction(2)))),
-    ):
-        refused("single-solution", one, {**known, one["flight"]: changed})
+    flown = [each for each in steps_of(document, "single-solution") if each["latest"]]
+    assert [each["n"] for each in flown] == ["4", "9"]
+    one, other = flown
+    first = derived("single-solution", one)
+    assert first.first and "is a fixed point of f" in first.sentence
+    assert not derived("single-solution", {**one, "latest": None}).first
+    assert abs(first.phase[0] - Fraction("1.1047758291275508478")) < 1e-18
+    for latest in ("25", "0", "-1"):  # 8 pi is 25.13
+        refused("single-solution", {**one, "latest": latest})
+    refused("single-solution", {**other, "latest": "56"})  # 18 pi is 56.55
+
+
+@pytest.mark.parametrize("n", ["5", "13"])
+def test_a_solution_whose_flight_ends_earlier_is_no_orbit(n):
+    """Of n = 4 or 9 alone the first impact is after n periods."""
+    for orbit in solutions(System(PAPER.eta, PAPER.nu), int(n), 60):
+        phase = [str(end) for end in orbit.phase]
+        witness = {"eta": "2121/10000", "nu": "-1/5", "n": n, "phase": phase, "early": None}
+        assert not derived("single-solution", {**witness, "latest": None}).first
+        refused("single-solution", {**witness, "latest": "400"})
 
 
 def first_end(*numbers):
