@@ -123,7 +123,7 @@ class Graphs(Writer):
         self, j: int, map_: Formulas, of: Line | Plane, named: dict[str, object], witness: Any
     ) -> None:
         """Write the theorem on the entropy of a graph."""
-        vector = [int(witness["vector"][place]) for place in of.places]
+        vector = of.weights(witness["vector"])
         growth, length = int(witness["growth"]), int(witness["length"])
         values = {**named, "j": j, "growth": growth, "length": length}
         values |= {"arrows": pairs(of.live), "vector": "; ".join(map(str, vector))}

@@ -6,6 +6,7 @@ Not trusted: a reader reads `theory/Graph.v`, and the definitions and theorems h
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from fractions import Fraction
 from itertools import pairwise
 
@@ -108,6 +109,10 @@ class Line:
             f"{what}; the slope is {show(self.least)} at least in size there: a path is followed "
             "by one point alone, and the map on these points is conjugate to the shift on paths"
         )
+
+    def weights(self, vector: Sequence[str]) -> list[int]:
+        """Return a vector of the certificate, in the order of the intervals."""
+        return [int(vector[place]) for place in self.places]
 
     @property
     def live(self) -> list[tuple[int, int]]:

@@ -94,7 +94,6 @@ class Plane:
     def __init__(self, graph: Graph) -> None:
         self.power = graph.covers[0].local.power
         self.nodes = graph.nodes
-        self.places = range(len(graph.nodes))
         covers = dict(zip(graph.edges, graph.covers, strict=True))
         self.arrows = _two_sided(sorted(covers))
         self.relations = [covers[arrow].local for arrow in self.arrows]
@@ -106,6 +105,11 @@ class Plane:
     def live(self) -> list[tuple[int, int]]:
         """The arrows of infinite paths: all."""
         return self.arrows
+
+    def weights(self, vector: Sequence[str]) -> list[int]:
+        """Return a vector of the certificate on the sets of two-sided paths, 0 on the others."""
+        reached = {a[0] for a in self.arrows}
+        return [int(x) if i in reached else 0 for i, x in enumerate(vector)]
 
     @property
     def values(self) -> dict[str, object]:

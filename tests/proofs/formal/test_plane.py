@@ -69,6 +69,11 @@ def test_arrows_that_no_two_sided_path_has_are_left_out():
     source = certificate(FOLDED, SETS, [(0, 0), (0, 1)])
     made = graphs.case(check(source), source, "0")
     assert "arrows1 : list (nat * nat) := [(0, 0)]%nat" in made.text
+    above = [*SETS, ((-310, -160), (60, 90))]  # which no set covers
+    source = certificate(FOLDED, above, [*ALL, (2, 0)])
+    made = graphs.case(check(source), source, "0")
+    assert "arrows1 : list (nat * nat) := [(0, 0); (0, 1); (1, 0); (1, 1)]%nat" in made.text
+    assert re.search(r"vector1 := \[([1-9]\d*); \1; 0\]", made.text)
     source = certificate(FOLDED, SETS, [(0, 1)])
     with pytest.raises(NoTheorem, match="no two-sided path"):
         graphs.case(check(source), source, "0")
