@@ -233,8 +233,8 @@ def _number(node: ast.expr) -> Fraction | None:
             value = _number(operand)
             return None if value is None else -value
         case ast.BinOp(left=left, right=right, op=ast.Div()):
-            one, two = _number(left), _number(right)
-            return one / two if one is not None and two else None
+            x, y = _number(left), _number(right)
+            return x / y if x is not None and y else None
     return None
 
 
