@@ -24,12 +24,12 @@ BUDGETS = {
     "proofs/search, proofs/motion": 8_040,
     "proofs/shell": 1_775,
     "proofs/benchmark": 2_005,
-    "proofs/stress": 1_230,
+    "proofs/stress": 1_225,
     "tests": 44_620,
     "words of the docs": 12_000,  # of those that are written by hand, the README with them
     "rules outside the kernel": 22,
     "loose modules": 9,  # of the package proofs
-    "tracked files": 921,
+    "tracked files": 915,
     "headline": 7_220,  # lines of the files that run to check reports/horseshoe.json
     "way of H2": 7_800,  # lines of the files that run to prove H2 and to check it
     "way of H2, files": 50,

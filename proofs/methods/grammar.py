@@ -68,7 +68,8 @@ def exact(value: int | Fraction | str) -> Fraction:
     try:
         number = fraction(value)
     except ValueError as error:
-        raise GrammarError(str(error)) from None
+        hint = ": what has pi in it is written in the formulas" if "pi" in str(value) else ""
+        raise GrammarError(f"{error}{hint}") from None
     if max(abs(number.numerator), number.denominator) >= 10**_DIGITS:
         raise GrammarError(f"a number of more than {_DIGITS} digits: {str(value)[:20]}...")
     return number
