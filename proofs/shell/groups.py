@@ -140,7 +140,9 @@ def produce(
     for group, claims in groups.items():
         prover = import_module(f"proofs.search.{PROVERS[group]}")
         evidence = prover.prove(of, claims, digits=digits, tell=tell, **options)
-        evidence, options = _apart(evidence, steps, group) if steps else evidence, {}
+        options = {}
+        if steps.keys() & evidence.steps.keys():
+            evidence = _apart(evidence, steps, group)
         steps |= evidence.steps
         for claim in claims:
             line, entry = decide(claim, of, evidence, digits)
@@ -154,8 +156,7 @@ def produce(
 
 def _apart(evidence: Evidence, earlier: Mapping[str, dict[str, Any]], group: str) -> Evidence:
     """Return evidence with names of its own for steps whose names others have already."""
-    names: dict[str, str] = {}
-    steps: dict[str, dict[str, Any]] = {}
+    names, steps = dict[str, str](), dict[str, dict[str, Any]]()
     for name, step in evidence.steps.items():
         text = re.sub(r'(?<=")[^"]+(?=")', lambda x: names.get(x[0], x[0]), json.dumps(step))
         own = json.loads(text)
