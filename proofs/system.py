@@ -93,7 +93,7 @@ class System(Map):
 
         Raises ValueError, in a sentence, where it is none, OSError where it cannot be read.
         """
-        text = Path(path).read_text("utf-8")
+        text = Path(path).read_text("utf-8-sig")  # some editors begin it with a mark
         try:
             return cls(tomllib.loads(text), **parameters)
         except (ValueError, TypeError) as error:  # of tomllib as well

@@ -39,10 +39,10 @@ def codac(python: str) -> Iterator[tuple[str, Bounds] | None]:
 
     def ask(work: Work, order: int) -> Range:
         _send((work, order), requests)
-        found: Range | str = pickle.load(replies)
-        if isinstance(found, str):
-            raise Undecided(found)
-        return found
+        reply: Range | str = pickle.load(replies)
+        if isinstance(reply, str):
+            raise Undecided(reply)
+        return reply
 
     with server:
         try:

@@ -74,7 +74,7 @@ class Flight:
             step /= 2
             if step < self.finest:
                 return None
-        time, found = step, list[tuple[float, float]]()
+        time, windows = step, list[tuple[float, float]]()
         while time < HORIZON:
             ahead = time + step
             if self.gap(during(time, ahead)) > 0:
@@ -82,10 +82,10 @@ class Flight:
             elif step > self.finest:
                 step /= 2
             else:
-                begin = found.pop()[0] if found and found[-1][1] == time else time
-                found.append((begin, ahead))
+                begin = windows.pop()[0] if windows and windows[-1][1] == time else time
+                windows.append((begin, ahead))
                 if self.gap(arb(ahead)) < 0:
-                    return found
+                    return windows
                 time = ahead
         return None
 

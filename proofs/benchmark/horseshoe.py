@@ -98,7 +98,7 @@ def limits(mode: str, tell: Tell) -> Section:
         first = [process(command) for command in commands.values()]
         rounds = range(_PAIRS[mode])
         runs = [[process(command) for command in commands.values()] for _ in rounds]
-    seconds = {name: [one[k].seconds for one in runs] for k, name in enumerate(commands)}
+    seconds = {name: [each[k].seconds for each in runs] for k, name in enumerate(commands)}
     rows = [
         Row(f"{name}, whole process [s]", spread(some), samples={"seconds": some})
         for name, some in seconds.items()
@@ -111,7 +111,7 @@ def limits(mode: str, tell: Tell) -> Section:
         rows.append(ratio_row(f"plastic claims / {script}", plastic, flint[0], 1.5))
     else:
         rows.append(Row(f"plastic claims / {script}", f"{FLINT} is absent", "<= 1.5"))
-    memory = max(one[0].megabytes for one in runs)
+    memory = max(each[0].megabytes for each in runs)
     rows.append(Row("plastic claims, memory [MB]", f"{memory:.0f}", "< 120", memory < 120))
     about = (
         "Whole processes of `python -m proofs horseshoe` beside bare imports, and beside a plain "

@@ -45,14 +45,14 @@ def seconds_of(task: Callable[[], Any]) -> float:
 def in_turn(tasks: Sequence[Callable[[], Any]], rounds: int) -> list[list[float]]:
     """Time the tasks A B A B ..., so that a busy machine slows all; return the seconds of each."""
     samples = [[seconds_of(task) for task in tasks] for _ in range(rounds)]
-    return [[one[k] for one in samples] for k in range(len(tasks))]
+    return [[sample[k] for sample in samples] for k in range(len(tasks))]
 
 
 def ratio_row(
     name: str, above: Sequence[float], below: Sequence[float], most: float | None = None
 ) -> Row:
     """Return the row of ratios in pairs, whose median should be at most `most`."""
-    ratios = [one / other for one, other in zip(above, below, strict=False)]
+    ratios = [upper / lower for upper, lower in zip(above, below, strict=False)]
     row = Row(f"{name} (pairs)", spread(ratios), samples={"ratios": ratios})
     if most is not None:
         row.target, row.reached = f"<= {most:g}", median(ratios) <= most

@@ -110,8 +110,8 @@ def _task(pair: _Pair, library: str) -> Callable[[], list[Any]]:
     """Return what does the operation on all operands, often where they are few; what it returns is
     what it found, at both ends one after the other.
     """
-    known = operands(library, pair.bits, pair.length)
-    lists = {name: known[name] for name in "xy"}
+    names = operands(library, pair.bits, pair.length)
+    lists = {name: names[name] for name in "xy"}
     third = {name: x / 3 if library == ARRAY else [e / 3 for e in x] for name, x in lists.items()}
     given = [third]
     if library == FLINT and pair.at_ends:
@@ -120,7 +120,7 @@ def _task(pair: _Pair, library: str) -> Callable[[], list[Any]]:
             for end in ("lower", "upper")
         ]
     code = compile(statement(pair.name, library), pair.name, "eval")
-    scopes = [known | some for some in given]
+    scopes = [names | some for some in given]
     calls = _CALLS if pair.ours == ARRAY else 1
 
     def run() -> list[Any]:

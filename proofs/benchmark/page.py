@@ -64,7 +64,7 @@ class Run:
 
 def text(run: Run) -> str:
     """Return the tables and the verdict."""
-    parts = [f"## {one.title}\n\n{one.table}\n" for one in run.sections]
+    parts = [f"## {each.title}\n\n{each.table}\n" for each in run.sections]
     return "\n".join([*parts, f"median (least .. largest); {run.verdict}"])
 
 
@@ -77,14 +77,14 @@ def environment() -> dict[str, str]:
 
 def machine_form(run: Run) -> str:
     """Return everything, with the raw samples, as JSON."""
-    rows = [{"section": one.title, **vars(row)} for one in run.sections for row in one.rows]
+    rows = [{"section": each.title, **vars(row)} for each in run.sections for row in each.rows]
     asked = {"subject": run.subject, "mode": run.mode, "seconds": round(run.seconds, 2)}
     return json.dumps({"schema": SCHEMA, **asked, **environment(), "rows": rows}, indent=1) + "\n"
 
 
 def markdown(run: Run) -> str:
     """Return the page; it names its pictures, which are not kept with it."""
-    machine = ", ".join(f"{name} {one}" for name, one in environment().items())
+    machine = ", ".join(f"{name} {version}" for name, version in environment().items())
     about = f"{run.verdict}. Subject: {run.subject}. Mode: {run.mode}."
     lines = ["# Benchmark", "", about, "", _ABOUT, "", f"Measured on: {machine}."]
     lines += [f"\nMissed: {row.name}: {row.measured}." for row in run.asked if not row.reached]
@@ -101,10 +101,10 @@ def write(folder: Path, run: Run) -> bool:
     All is drawn before anything is written, and the page comes last: what it names is there.
     Without matplotlib there are no pictures. OSError if nothing can be written.
     """
-    diagrams = [one for section in run.sections for one in section.diagrams]
+    diagrams = [diagram for section in run.sections for diagram in section.diagrams]
     drawn = True
     try:
-        files = {f"benchmark-{one.name}.svg": svg(one) for one in diagrams}
+        files = {f"benchmark-{diagram.name}.svg": svg(diagram) for diagram in diagrams}
     except ImportError:
         files, drawn = {}, False
     files["benchmark.json"] = machine_form(run)

@@ -130,14 +130,14 @@ def _flights(plan: Plan) -> Section:
 
 def _peers(codac_version: str) -> Section:
     """Say of each peer what it is, or that it is absent."""
-    known = {
+    peers = {
         FLINT: "balls of any precision, in C (FLINT, Arb)",
         "mpmath": f"as {IV}, in Python; not proved sound: its exp can exclude the truth",
         CODAC: "binary64 intervals, in C++, in a process of its own",
         "scipy": "solve_ivp with an event at the impact, a simulation",
     }
-    versions = {name: version_of(name) for name in known} | {CODAC: codac_version or "absent"}
-    rows = [Row(name, f"{versions[name]}: {what}") for name, what in known.items()]
+    versions = {name: version_of(name) for name in peers} | {CODAC: codac_version or "absent"}
+    rows = [Row(name, f"{versions[name]}: {what}") for name, what in peers.items()]
     about = (
         "Ours is measured beside these, on the same work, as far as they are installed. All but "
         "scipy claim to enclose the truth, and each enclosure is compared with it."

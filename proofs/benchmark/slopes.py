@@ -120,14 +120,14 @@ def _prove_bracket(of: Arithmetic, box: Any, last: float, bracket: tuple[float, 
 def coefficients(of: Arithmetic, phi: Any, time: Any, order: int) -> list[Any]:
     """Enclose the Taylor coefficients 0, ..., order of f', for launches at phi with these times."""
     start = _launch(of, phi)
-    found = [slope(start, clock(start.eta, time))]
-    times = [time, found[0] - 1]
+    taylor = [slope(start, clock(start.eta, time))]
+    times = [time, taylor[0] - 1]
     for k in range(1, order + 1):
         along = _launch(of, of.series([phi, phi * 0 + 1, *[phi * 0] * (k - 1)]))
         series = slope(along, clock(start.eta, of.series(times)))
-        found.append(of.coefficient(series, k))
-        times.append(found[-1] / (k + 1))
-    return found
+        taylor.append(of.coefficient(series, k))
+        times.append(taylor[-1] / (k + 1))
+    return taylor
 
 
 def thin_time(of: Arithmetic, phi: Any, about: float) -> Any:
@@ -166,6 +166,6 @@ def _values(of: Arithmetic, work: Work, order: int) -> list[Any]:
 
 def _horner(c: Sequence[Any], x: Any) -> Any:
     total = c[-1]
-    for one in reversed(c[:-1]):
-        total = total * x + one
+    for each in reversed(c[:-1]):
+        total = total * x + each
     return total

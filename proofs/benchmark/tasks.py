@@ -42,19 +42,19 @@ def bits_for(digits: float) -> int:
 @cache
 def truth(phase: Fraction) -> Image:
     """Return flight, image and slope to more digits than any other here."""
-    found = image(SYSTEM, (phase, phase), digits=_TRUE_DIGITS)
-    if not isinstance(found, Image):
+    true = image(SYSTEM, (phase, phase), digits=_TRUE_DIGITS)
+    if not isinstance(true, Image):
         raise ArithmeticError(f"there is no single image of {phase}")
-    return found
+    return true
 
 
 # -- slopes ----------------------------------------------------------------------------------------
 
 
-def loss(found: Sequence[Range]) -> float:
+def loss(slopes: Sequence[Range]) -> float:
     """Return by how much bounds of f' on I0 and I1, where f'' > 0, miss its values at the ends."""
     losses = []
-    for (low, high), ends in zip(found, DOMAINS, strict=True):
+    for (low, high), ends in zip(slopes, DOMAINS, strict=True):
         least, most = (truth(end).slope for end in ends)
         losses += [least[1] - low, high - most[0]]
     return float(min(losses)) if min(losses) < 0 else float(max(losses))
@@ -105,14 +105,14 @@ def _about(phase: float) -> float:
 
 def by_bounds(of: Callable[[Work, int], Range], order: int, boxes: float) -> float:
     """Do the work by what bounds f' on one domain."""
-    return loss([of(one, order) for one in works(int(boxes))])
+    return loss([of(work, order) for work in works(int(boxes))])
 
 
 def by_library(library: str, order: int, digits: float | None, boxes: float) -> float:
     """Do the work box by box, to so many digits or in binary64, signs to 53 bits."""
     of = arithmetic(library, bits_for(digits) if digits else _SIGN_BITS)
     signs = arithmetic(library, _SIGN_BITS)
-    return loss([bounds(of, signs, one, order) for one in works(int(boxes))])
+    return loss([bounds(of, signs, work, order) for work in works(int(boxes))])
 
 
 def monotone(library: str, digits: float) -> float:
@@ -124,37 +124,37 @@ def main_job_slopes(digits: float) -> float:
     """Do what the main job does: it is given nothing, and keeps the witness."""
     from proofs.search.steps import Prover
 
-    found = []
+    slopes = []
     for domain in DOMAINS:
         pieces = Prover(SYSTEM, int(digits), HORIZON).slopes(list(domain))[1].pieces
-        found.append((min(low for low, _ in pieces), max(high for _, high in pieces)))
-    return loss(found)
+        slopes.append((min(low for low, _ in pieces), max(high for _, high in pieces)))
+    return loss(slopes)
 
 
 # -- flights ---------------------------------------------------------------------------------------
 
 
-def width(found: Sequence[Range]) -> float:
+def width(flights: Sequence[Range]) -> float:
     """Return the largest width of enclosures of the six times; -1 if one excludes the truth."""
-    for (low, high), phase in zip(found, PHASES, strict=True):
+    for (low, high), phase in zip(flights, PHASES, strict=True):
         least, most = truth(phase).flight
         if not (low <= most and least <= high):
             return -1.0
-    return float(max(high - low for low, high in found))
+    return float(max(high - low for low, high in flights))
 
 
 def deviation(times: Sequence[float | None]) -> float:
     """Return the largest error of six approximate times; Undecided where there is none."""
-    known = [(time, phase) for time, phase in zip(times, PHASES, strict=True) if time is not None]
-    if len(known) < len(PHASES):
+    seen = [(time, phase) for time, phase in zip(times, PHASES, strict=True) if time is not None]
+    if len(seen) < len(PHASES):
         raise Undecided("no impact was found")
-    return max(abs(float(Fraction(time) - truth(phase).flight[0])) for time, phase in known)
+    return max(abs(float(Fraction(time) - truth(phase).flight[0])) for time, phase in seen)
 
 
 def images(digits: float) -> float:
     """Enclose the certified map, which is given the phase alone."""
-    found = [image(SYSTEM, (phase, phase), digits=int(digits)) for phase in PHASES]
-    return width([one.flight for one in found if isinstance(one, Image)])
+    answers = [image(SYSTEM, (phase, phase), digits=int(digits)) for phase in PHASES]
+    return width([each.flight for each in answers if isinstance(each, Image)])
 
 
 def flights(library: str, digits: float) -> float:
@@ -186,10 +186,10 @@ def solved(method: str, tolerance: float) -> float:
 
         below.terminal, below.direction = True, -1  # type: ignore[attr-defined]
         start = 1 + nu * math.sin(phase), nu * math.cos(phase)
-        found = solve_ivp(
+        solution = solve_ivp(
             lambda _, y: (y[1], -eta * eta * y[0]), (0.0, 200.0), start, method, events=below,
             max_step=1.0, rtol=tolerance, atol=tolerance,
         )  # fmt: skip
-        events = [t for t in found.t_events[0] if t > 0.25]  # before is the launch itself
+        events = [t for t in solution.t_events[0] if t > 0.25]  # before is the launch itself
         times.append(float(events[0]) if events else None)
     return deviation(times)

@@ -100,13 +100,13 @@ def _parser() -> Parser:
 
 
 def _numbers(text: str) -> dict[str, Fraction]:
-    found = {}
+    numbers = {}
     for each in text.split(","):
         typed, equals, value = each.partition("=")
-        if not equals or not typed.strip().isidentifier() or spelled(typed.strip()) in found:
+        if not equals or not typed.strip().isidentifier() or spelled(typed.strip()) in numbers:
             raise ArgumentTypeError(f"NAME=NUMBER is expected, once a name, not {each[:30]!r}")
-        found[spelled(typed.strip())] = number(value.strip())
-    return found
+        numbers[spelled(typed.strip())] = number(value.strip())
+    return numbers
 
 
 def _kinds(of: Map, options: Namespace) -> list[str]:
@@ -151,8 +151,8 @@ def _answer(
             answer["bifurcations"][kind] = entry
             try:
                 if options.near is not None:
-                    found = enclosure(file, form, names[-1], options.near, options.digits)
-                    entry["enclosed"] = _enclosed_form(found, options.digits)
+                    enclosed = enclosure(file, form, names[-1], options.near, options.digits)
+                    entry["enclosed"] = _enclosed_form(enclosed, options.digits)
                 else:
                     entry |= _candidates(file, form, names)
                     if reason := _not_found(entry):
@@ -181,9 +181,9 @@ def _candidates(file: Lemmas, form: NormalForm, names: tuple[str, ...]) -> Answe
     if derive.simplest(derive.read(form.condition())).is_nonzero:
         return {"closed": [], "dropped": []}
     parameter = next(x for x in names if x not in form.map.state)
-    found = closed(file, form, names)
-    told = [_closed_form(each, parameter, len(form.map.state) == 2) for each in found]
-    pairs = list(zip(told, found, strict=True))
+    candidates = closed(file, form, names)
+    forms = [_closed_form(each, parameter, len(form.map.state) == 2) for each in candidates]
+    pairs = list(zip(forms, candidates, strict=True))
     return {
         "closed": [each for each, of in pairs if of.kept],
         "dropped": [each for each, of in pairs if not of.kept],
@@ -223,43 +223,43 @@ def _map_form(of: Map) -> Answer:
     }
 
 
-def _closed_form(found: Closed, parameter: str, plane: bool) -> Answer:
+def _closed_form(candidate: Closed, parameter: str, plane: bool) -> Answer:
     return {
-        "kind": found.found.kind,
-        "why": found.found.why,
-        "where": list(found.found.where),
-        "values": {name: _formula(value) for name, value in found.values.items()},
-        "meaning": dict(meaning(found.found.kind, parameter, plane, found.signs.get)),
+        "kind": candidate.found.kind,
+        "why": candidate.found.why,
+        "where": list(candidate.found.where),
+        "values": {name: _formula(value) for name, value in candidate.values.items()},
+        "meaning": dict(meaning(candidate.found.kind, parameter, plane, candidate.signs.get)),
     }
 
 
-def _enclosed_form(found: Enclosed, digits: int) -> Answer:
-    values = {**found.box, "critical": found.critical, "speed": found.speed}
-    values["determinant"] = found.determinant
+def _enclosed_form(enclosed: Enclosed, digits: int) -> Answer:
+    values = {**enclosed.box, "critical": enclosed.critical, "speed": enclosed.speed}
+    values["determinant"] = enclosed.determinant
     ends = {name: bounds(each, digits) for name, each in values.items()}
-    plane = len(found.form.map.state) == 2
-    told = dict(meaning(found.form.kind, found.parameter, plane, found.signs.get))
-    return {**ends, "says": found.says, "meaning": told}
+    plane = len(enclosed.form.map.state) == 2
+    meanings = dict(meaning(enclosed.form.kind, enclosed.parameter, plane, enclosed.signs.get))
+    return {**ends, "says": enclosed.says, "meaning": meanings}
 
 
-def _place(answer: Answer, found: Answer) -> str:
+def _place(answer: Answer, candidate: Answer) -> str:
     """Write the fixed point and the parameter of a candidate."""
     own = (*answer["variables"], *answer["parameters"])
-    known = {x: found["values"][x]["formula"] for x in own if x in found["values"]}
-    return ", ".join(f"{name} = {value}" for name, value in known.items())
+    places = {x: candidate["values"][x]["formula"] for x in own if x in candidate["values"]}
+    return ", ".join(f"{name} = {value}" for name, value in places.items())
 
 
-def _told(answer: Answer, found: Answer) -> list[str]:
+def _told(answer: Answer, candidate: Answer) -> list[str]:
     """Write a bifurcation: where, the numbers that decide with what they mean, the others."""
-    why = f": {found['why']}" if found["why"] else ""
-    said = [f"  {found['kind']} at {_place(answer, found)}{why}"]
-    values = {name: value["formula"] for name, value in found["values"].items()}
-    for name in dict.fromkeys((*found["meaning"], "critical", "speed", "trace", "determinant")):
+    why = f": {candidate['why']}" if candidate["why"] else ""
+    said = [f"  {candidate['kind']} at {_place(answer, candidate)}{why}"]
+    values = {name: value["formula"] for name, value in candidate["values"].items()}
+    for name in dict.fromkeys((*candidate["meaning"], "critical", "speed", "trace", "determinant")):
         if name in values:
-            says = found["meaning"].get(name, "")
+            says = candidate["meaning"].get(name, "")
             said.append(f"    {name} = {values[name]}{says and f': {says}'}")
-    if found["where"]:
-        said.append(f"    where {', '.join(found['where'])}")
+    if candidate["where"]:
+        said.append(f"    where {', '.join(candidate['where'])}")
     return said
 
 

@@ -25,14 +25,14 @@ _TITLE = "## Seen in floating point, not proved"
 def dossier(of: Parameters, options: Namespace) -> str:
     """Return in Markdown what floating point sees on the circle, and what is special here."""
     budget = Budget(of.eta, options.effort or EFFORT, options.seconds or math.inf)
-    told = [_TITLE, ""]
+    lines = [_TITLE, ""]
     if of.eta > FASTEST:
-        return "\n".join([*told, f"Nothing: for eta > {FASTEST} flights are not followed."])
+        return "\n".join([*lines, f"Nothing: for eta > {FASTEST} flights are not followed."])
     try:
-        told += _circle(of, budget) if of.epsilon is None else _rebounding(of, budget)
+        lines += _circle(of, budget) if of.epsilon is None else _rebounding(of, budget)
     except Undecided as failure:
-        told.append(f"Not all that was to be looked at: {failure}.")
-    return "\n".join([*told, *_special(of)])
+        lines.append(f"Not all that was to be looked at: {failure}.")
+    return "\n".join([*lines, *_special(of)])
 
 
 def _rebounding(of: Parameters, budget: Budget) -> Iterator[str]:

@@ -65,7 +65,7 @@ def main(arguments: list[str] | None = None) -> int:
 def _answer(parser: Parser, system: System, phases: Range, options: Namespace) -> int:
     """Print or write the image; return the exit status."""
     try:
-        found = _image(system, phases, options)
+        image = _image(system, phases, options)
     except Impossible as failure:
         parser.error(str(failure))
     except (Undecided, IntervalError) as failure:
@@ -75,9 +75,9 @@ def _answer(parser: Parser, system: System, phases: Range, options: Namespace) -
     answer = {"eta": show(system.eta), "nu": show(system.nu), "phi": [show(x) for x in phases]}
     if options.gamma:
         answer |= {"epsilon": show(options.epsilon), "gamma": [show(x) for x in options.gamma]}
-    answer |= machine_form(found, options.digits)
+    answer |= machine_form(image, options.digits)
     give(parser, options, answer, _text)
-    return int(isinstance(found, PossibleImages))
+    return int(isinstance(image, PossibleImages))
 
 
 def _parser() -> Parser:
@@ -137,25 +137,25 @@ def _phases(values: list[Fraction]) -> Range:
     return low, high
 
 
-def machine_form(found: Image | PossibleImages | Rebound, places: int) -> Answer:
+def machine_form(image: Image | PossibleImages | Rebound, places: int) -> Answer:
     """Return the JSON object of an answer."""
-    if isinstance(found, PossibleImages):
+    if isinstance(image, PossibleImages):
         coarse = min(places, _COARSE_DIGITS)
         pairs = [
             {"flight": bounds(flight, coarse), "phase": bounds(phase, coarse)}
-            for flight, phase in found.images
+            for flight, phase in image.images
         ]
-        return {"sticking": None, "reason": found.reason, "possible": pairs}
-    answer: Answer = {"flight": bounds(found.flight, places), "phase": bounds(found.phase, places)}
-    if isinstance(found, Rebound):
-        answer["velocity"] = bounds(found.velocity, places)
-        p, q, r, s = (bounds(entry, places) for entry in found.jacobian)
+        return {"sticking": None, "reason": image.reason, "possible": pairs}
+    answer: Answer = {"flight": bounds(image.flight, places), "phase": bounds(image.phase, places)}
+    if isinstance(image, Rebound):
+        answer["velocity"] = bounds(image.velocity, places)
+        p, q, r, s = (bounds(entry, places) for entry in image.jacobian)
         answer["jacobian"] = [[p, q], [r, s]]
     else:
-        answer["slope"] = bounds(found.slope, places)
-    answer["sticking"] = found.sticking
-    if found.dwell is not None:
-        answer["dwell"] = bounds(found.dwell, places)
+        answer["slope"] = bounds(image.slope, places)
+    answer["sticking"] = image.sticking
+    if image.dwell is not None:
+        answer["dwell"] = bounds(image.dwell, places)
     return answer
 
 

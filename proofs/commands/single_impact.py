@@ -67,7 +67,9 @@ def _answer(parser: Parser, system: System, options: Namespace) -> int:
     answer["asked"] = options.n
     answer["complete"] = options.n is None and last is not None and last <= options.most
     give(parser, options, answer, _text)
-    open_ones = [one for one in answer["solutions"] if None in (one["admissible"], one["stable"])]
+    open_ones = [
+        each for each in answer["solutions"] if None in (each["admissible"], each["stable"])
+    ]
     return int(bool(answer["undecided"] or open_ones))
 
 
@@ -78,7 +80,7 @@ def answer_for(
     tell: Callable[[str], None] = lambda stage: None,
 ) -> Answer:
     """Return the JSON object of an answer."""
-    found: list[Answer] = []
+    orbits: list[Answer] = []
     resonant, undecided = [], []
     for n in periods:
         tell(f"n = {n} of {periods[-1]}")
@@ -86,40 +88,40 @@ def answer_for(
             resonant.append(n)
             continue
         try:
-            found += [machine_form(one, places) for one in solutions(system, n, 4 * places + 20)]
+            orbits += [machine_form(each, places) for each in solutions(system, n, 4 * places + 20)]
         except (Undecided, DomainError):
             undecided.append(n)
     return {
         "eta": show(system.eta),
         "nu": show(system.nu),
         "periods": [periods[0], periods[-1]] if periods else [],
-        "solutions": found,
+        "solutions": orbits,
         "resonant": resonant,
         "undecided": undecided,
     }
 
 
-def machine_form(one: SingleImpact, places: int) -> Answer:
+def machine_form(solution: SingleImpact, places: int) -> Answer:
     """Return the JSON object of a solution."""
     return {
-        "n": one.n,
-        "phase": bounds(one.phase, places),
-        "multiplier": None if one.multiplier is None else bounds(one.multiplier, places),
-        "admissible": one.admissible,
-        "stable": one.stable,
-        "reason": one.reason,
+        "n": solution.n,
+        "phase": bounds(solution.phase, places),
+        "multiplier": None if solution.multiplier is None else bounds(solution.multiplier, places),
+        "admissible": solution.admissible,
+        "stable": solution.stable,
+        "reason": solution.reason,
     }
 
 
 def _text(answer: Answer) -> str:
     said = [f"eta = {answer['eta']}, nu = {answer['nu']}", *_summary(answer)]
-    for one in answer["solutions"]:
-        kind = {True: "an orbit", False: "no orbit", None: "undecided"}[one["admissible"]]
-        if one["admissible"]:
-            kind += {True: ", stable", False: ", not stable", None: ""}[one["stable"]]
-        said.append(f"n = {one['n']}: {kind} ({one['reason']})")
-        said += lines("phase", one["phase"], 10)
-        said += lines("multiplier", one["multiplier"], 10) if one["multiplier"] else []
+    for each in answer["solutions"]:
+        kind = {True: "an orbit", False: "no orbit", None: "undecided"}[each["admissible"]]
+        if each["admissible"]:
+            kind += {True: ", stable", False: ", not stable", None: ""}[each["stable"]]
+        said.append(f"n = {each['n']}: {kind} ({each['reason']})")
+        said += lines("phase", each["phase"], 10)
+        said += lines("multiplier", each["multiplier"], 10) if each["multiplier"] else []
     return "\n".join(said)
 
 
@@ -131,13 +133,13 @@ def _summary(answer: Answer) -> list[str]:
             "all the same: --n 1 lists those for n = 1"
         ]
     first, last = answer["periods"]
-    looked, found = f"n = {first}" + f", ..., {last}" * (first < last), answer["solutions"]
-    orbits = [one for one in found if one["admissible"]]
-    stable = sorted({one["n"] for one in orbits if one["stable"]})
-    open_ones = sum(None in (one["admissible"], one["stable"]) for one in found)
+    looked, solutions = f"n = {first}" + f", ..., {last}" * (first < last), answer["solutions"]
+    orbits = [each for each in solutions if each["admissible"]]
+    stable = sorted({each["n"] for each in orbits if each["stable"]})
+    open_ones = sum(None in (each["admissible"], each["stable"]) for each in solutions)
     named = f", for n = {', '.join(map(str, stable))}" if stable else ""
     said = [
-        f"{looked}: {_count(found, 'solution')} of (16) where n eta is no integer, "
+        f"{looked}: {_count(solutions, 'solution')} of (16) where n eta is no integer, "
         f"{_count(orbits, 'orbit')}, {len(stable)} stable{named}"
     ]
     if open_ones:
@@ -155,5 +157,5 @@ def _summary(answer: Answer) -> list[str]:
     return said
 
 
-def _count(found: Sequence[Answer], noun: str) -> str:
-    return f"{len(found) or 'no'} {noun}" + "s" * (len(found) != 1)
+def _count(solutions: Sequence[Answer], noun: str) -> str:
+    return f"{len(solutions) or 'no'} {noun}" + "s" * (len(solutions) != 1)

@@ -236,7 +236,7 @@ def _question(text: str) -> str:
     question = _QUESTIONS[kind]
     if not re.fullmatch(rf"{question.more}(,{question.more})*" if question.more else "", more):
         raise ArgumentTypeError(f"{text[:40]!r} is no question: ask as in {question.example}")
-    return text
+    return text.rstrip(":")
 
 
 def _ends(text: str) -> str | tuple[str, str]:

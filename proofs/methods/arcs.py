@@ -72,26 +72,26 @@ def follow(
     start: about a point; accept: raises where a piece is not wanted, which is then halved. The arc
     ends before where no piece is short enough, or there are so many; Undecided if there is none.
     """
-    found: list[Traced] = []
+    pieces: list[Traced] = []
     place, longest = list(start), step
-    while place[axis] < end and len(found) < most:
+    while place[axis] < end and len(pieces) < most:
         ahead = min(step, end - place[axis])
         try:
             traced = _traced(map_, axis, place, ahead)
-            if found:
-                _require_joined(map_, axis, found[-1], traced)
+            if pieces:
+                _require_joined(map_, axis, pieces[-1], traced)
             accept(traced.piece)
         except IntervalError as failure:
             step = ahead / 2 // _UNIT * _UNIT
             if step >= _SHORTEST:
                 continue
-            if found:
+            if pieces:
                 break
             raise Undecided(str(failure)) from None
-        found.append(traced)
+        pieces.append(traced)
         place = [*centre_of(traced.piece.cut(axis, place[axis] + ahead))]
         step = min(longest, step * _FACTOR // _UNIT * _UNIT)
-    return found
+    return pieces
 
 
 def _traced(map_: Map, axis: int, place: Sequence[Fraction], ahead: Fraction) -> Traced:

@@ -74,7 +74,7 @@ def _forms(graph: Graph) -> list[Form]:
     pairs = [(most[0][j], most[j][0]) for j in range(1, n)]
     if not all(min(pair) for pair in pairs):
         return usual
-    weights = [Fraction(2) ** round(log2(one / two)) for one, two in pairs]
+    weights = [Fraction(2) ** round(log2(upper / lower)) for upper, lower in pairs]
     return [(Fraction(1), *(-weight for weight in weights)), *usual]
 
 

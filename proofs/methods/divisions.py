@@ -88,7 +88,7 @@ def part_of_tree(tree: Tree, box: Box) -> tuple[Tree, list[Box]]:
     if high <= cut or cut <= low:
         return part_of_tree(tree[2 if high <= cut else 3], box)
     sides = [(*box[:axis], ends, *box[axis + 1 :]) for ends in ((low, cut), (cut, high))]
-    (one, first), (two, second) = (
+    (place, first), (other, second) = (
         part_of_tree(part, side) for part, side in zip(tree[2:], sides, strict=True)
     )
-    return [*tree[:2], one, two], first + second
+    return [*tree[:2], place, other], first + second

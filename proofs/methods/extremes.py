@@ -58,14 +58,14 @@ def extremes(
     pieces, they stay as wide as they are: the bounds hold all the same. Raises Undecided if dg
     has no answer then.
     """
-    known: dict[Fraction, Range] = {}
+    at_points: dict[Fraction, Range] = {}
     done: list[_Piece] = []
     waiting: list[_Piece] = []
 
     def at(x: Fraction) -> Range:
-        if x not in known:
-            known[x] = g(x)
-        return known[x]
+        if x not in at_points:
+            at_points[x] = g(x)
+        return at_points[x]
 
     def examine(low: Fraction, high: Fraction) -> None:
         try:
@@ -82,7 +82,10 @@ def extremes(
             heappush(waiting, piece)
 
     def useless(values: Range) -> bool:
-        least, greatest = min(v[1] for v in known.values()), max(v[0] for v in known.values())
+        least, greatest = (
+            min(v[1] for v in at_points.values()),
+            max(v[0] for v in at_points.values()),
+        )
         return least <= values[0] and values[1] <= greatest
 
     for low, high in pairwise(points):

@@ -55,16 +55,16 @@ def _end(sampled: Sampled, x: Floats) -> str:
 @np.errstate(all="ignore")
 def _attractors(sampled: Sampled, x: Floats, longest: int) -> list[Cycle]:
     """Return the attracting periodic orbits, up to a period, that settled points come to."""
-    found: list[Cycle] = []
+    orbits: list[Cycle] = []
     after = x
     for period in range(1, longest + 1):
         after = sampled(after)
         apart = after - x - whole_periods(sampled, (after - x).T).T
         near = (np.abs(apart) < _CLOSE * (1 + np.abs(x))).all(axis=0)
         seen = cycles(sampled, period, x[:, near])
-        found += [each for each in seen if each.multipliers[-1] < 1 - _NEUTRAL]
+        orbits += [each for each in seen if each.multipliers[-1] < 1 - _NEUTRAL]
         x, after = x[:, ~near], after[:, ~near]
-    return found
+    return orbits
 
 
 @np.errstate(all="ignore")

@@ -68,7 +68,8 @@ def exact(value: int | Fraction | str) -> Fraction:
     try:
         number = fraction(value)
     except ValueError as error:
-        raise GrammarError(str(error)) from None
+        hint = ": what has pi in it is written in the formulas" if "pi" in str(value) else ""
+        raise GrammarError(f"{error}{hint}") from None
     if max(abs(number.numerator), number.denominator) >= 10**_DIGITS:
         raise GrammarError(f"a number of more than {_DIGITS} digits: {str(value)[:20]}...")
     return number
@@ -232,8 +233,8 @@ def _number(node: ast.expr) -> Fraction | None:
             value = _number(operand)
             return None if value is None else -value
         case ast.BinOp(left=left, right=right, op=ast.Div()):
-            one, two = _number(left), _number(right)
-            return one / two if one is not None and two else None
+            x, y = _number(left), _number(right)
+            return x / y if x is not None and y else None
     return None
 
 

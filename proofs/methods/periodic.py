@@ -132,13 +132,15 @@ def _fixed(formula: Formulas, period: int, start: Point) -> tuple[Point, Rows]:
     for _ in range(_STEPS):
         x = _precise(point)
         slopes = tuple(middles(row) for row in closing.jacobian(x))
-        matrix = tuple(
-            tuple(Fraction(f"{float(entry):.10g}") for entry in row) for row in inverse(slopes)
-        )
+        try:
+            rows = inverse(slopes)
+        except Undecided:
+            break
+        matrix = tuple(tuple(Fraction(f"{float(x):.10g}") for x in row) for row in rows)
         missed = middles(closing.values(x))
         before, moved = point, (x - dot(row, missed) for x, row in zip(point, matrix, strict=True))
         point = tuple(round(x / _PLACE) * _PLACE for x in moved)
         if point == before:
             return point, matrix
     place = ", ".join(f"{float(x):.9g}" for x in start)
-    raise Undecided(f"whether there is a periodic point near ({place})")
+    raise Undecided(f"whether there is a periodic point near ({place}), or many: not isolated")

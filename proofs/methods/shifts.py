@@ -68,11 +68,11 @@ def add_covers(
 
     most: how many boxes a tree may have.
     """
-    one, two = (file.context.known[name] for name in (source, target))
-    if not (isinstance(one, HSet) and isinstance(two, HSet)):
+    first, second = (file.context.known[name] for name in (source, target))
+    if not (isinstance(first, HSet) and isinstance(second, HSet)):
         raise TypeError("covers is about h-sets")
-    map_, n = file.map(function), len(one.centre)
-    local = LocalMap(map_, power, one, two, _turns(map_, power, one, two))
+    map_, n = file.map(function), len(first.centre)
+    local = LocalMap(map_, power, first, second, _turns(map_, power, first, second))
     tip = local.values(enclosed(((Fraction(1),) * 2, *((Fraction(0),) * 2,) * (n - 1)), _BITS))[0]
     way = 1 if tip.lo + tip.hi > 0 else -1
     ends = [((end, end), *cube(n - 1)) for end in _CUBE]
@@ -88,8 +88,8 @@ def add_covers(
 
 
 def _clear(values: Sequence[Any]) -> bool:
-    one = 1 << values[0].bits
-    return beyond(values[0]) or all(-one < v.lo and v.hi < one for v in values[1:])
+    unit = 1 << values[0].bits
+    return beyond(values[0]) or all(-unit < v.lo and v.hi < unit for v in values[1:])
 
 
 def _turns(map_: Map, power: int, source: HSet, target: HSet) -> tuple[int, ...]:

@@ -33,13 +33,13 @@ def prove_trapping(file: Derivation, function: str, boxes: Sequence[Box]) -> str
 
 def _image(map_: Map, box: Box, union: Sequence[Box]) -> tuple[Tree, Box]:
     """Return bounds on the image of a box, and a tree of parts whose images lie in the union."""
-    known: list[Box] = []
+    images: list[Box] = []
 
     def inside(values: list[Enclosure]) -> bool:
         image = tuple(_rounded(value.range) for value in values)
         is_inside = not outside(sides_of(map_, image), [sides_of(map_, each) for each in union])
         if is_inside:
-            known.append(image)
+            images.append(image)
         return is_inside
 
     try:
@@ -47,7 +47,7 @@ def _image(map_: Map, box: Box, union: Sequence[Box]) -> tuple[Tree, Box]:
         tree = subdivide(box, lambda part: holds(map_, part, inside), scale, _MOST_BOXES)
     except Undecided as error:
         raise Undecided(f"images are not all seen to lie in the boxes: {error}") from None
-    return tree, tuple(map(hull, zip(*known, strict=True)))
+    return tree, tuple(map(hull, zip(*images, strict=True)))
 
 
 def _rounded(values: Range) -> Range:

@@ -17,7 +17,7 @@ from proofs.motion.system import System
 from proofs.trusted.equations import Launch, launch, launch_acceleration, sincos
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.enclose import enclosed
-from proofs.trusted.numbers import COVER_BITS, Range
+from proofs.trusted.numbers import Range
 from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.paper.s4_single.orbits import records
 
@@ -165,7 +165,7 @@ def _admissible(system: System, n: int, phase: Range, bits: int) -> tuple[bool |
             return True, "the first impact"
         if system.side > 0 or n not in _known_records(system.eta, 1 << n.bit_length()):
             return False, "an earlier impact"
-    return _by_flight(system, n, phase)
+    return _by_flight(system, n, phase, 2 * precision)
 
 
 def _arrives(system: System, n: int, start: Launch) -> Interval:
@@ -183,21 +183,17 @@ def _known_records(eta: Fraction, most: int) -> frozenset[int]:
     return frozenset(records(eta, most))
 
 
-def _by_flight(system: System, n: int, phase: Range) -> tuple[bool | None, str]:
-    """Decide by the first impact of the flight, in ever more bits."""
-    period, reason = Interval.pi(precision=128) * (2 * n), "the flight is too long to follow"
+def _by_flight(system: System, n: int, phase: Range, bits: int) -> tuple[bool | None, str]:
+    """Decide by the first impact of the flight, which the checker's own map finds."""
+    period = Interval.pi(precision=bits) * (2 * n)
     if period.sup > _LONGEST:
-        return None, reason
-    f = PlasticMap(system.place, period.sup + 1)
-    for attempt in range(_ATTEMPTS):
-        try:
-            begin, end = f.window(enclosed((phase,), COVER_BITS * (attempt + 1)))
-        except Unproved as failure:
-            reason = str(failure)
-            continue
-        if end < period.inf:
-            return False, "an earlier impact"
-        if begin < period.inf and period.sup < end:
-            return True, "the first impact"
-        reason = "the first impact is not told from one after n periods"
-    return None, reason
+        return None, "the flight is too long to follow"
+    try:
+        begin, end = PlasticMap(system.place, period.sup + 1).impact(enclosed((phase,), bits)).range
+    except Unproved as failure:
+        return None, str(failure)
+    if end < period.inf:
+        return False, "an earlier impact"
+    if begin < period.inf and period.sup < end:
+        return True, "the first impact"
+    return None, "the first impact is not told from one after n periods"

@@ -36,7 +36,7 @@ _HALVINGS = 4  # of a window, as the rule halves it
 _LIKELY = 0.375  # of bend w^2: up to 1/2 a step of 2 w may not be closed; few of them are
 _PATIENCE = 4  # steps after one that was too long, until a longer one is tried whatever the bend
 _CLOSE = Fraction(1, 1000)  # of times to that of a touch
-_TOUCHES = 64  # where mass and table touch more often, finer steps will show no more
+_MOST_WINDOWS = 256  # where mass and table touch more often, finer steps will show no more
 BLIND = (DomainError, Unproved, OverflowError, ValueError)  # numbers that do not see
 
 
@@ -55,8 +55,7 @@ class Sticks(Undecided):
 class Unsettled(Undecided):
     """In some windows of time impacts are possible, and none is certain up to where one looked.
 
-    excluded: times up to the first window, gap > 0 between them. hopeless: there are so many
-    windows that mass and table seem to touch, as at resonance.
+    excluded: times up to the first window, gap > 0 between them.
     """
 
     def __init__(self, windows: Sequence[Range], times: Sequence[Fraction], reason: str) -> None:
@@ -64,7 +63,6 @@ class Unsettled(Undecided):
         near = f"an impact near time {float(begin):.9g} is neither proved nor excluded"
         super().__init__(f"{near}{reason and f': {reason}'}")
         self.excluded = up_to(begin, times)
-        self.hopeless = len(windows) > _TOUCHES
 
 
 # -- launches --------------------------------------------------------------------------------------
@@ -203,7 +201,7 @@ def march(
     while not windows or value.hi >= 0:
         now = times[-1]
         least = min(finest, now / 8)
-        if len(windows) > (0 if now >= horizon else 4 * _TOUCHES):
+        if len(windows) > (0 if now >= horizon else _MOST_WINDOWS):
             raise unsettled()
         if now >= horizon:
             raise NoImpact(f"there is no impact up to time {float(horizon):g} (the horizon)")

@@ -70,8 +70,8 @@ def _about_oscillators(
     box: Place, asked: Question, hints: Sequence[str]
 ) -> Iterator[tuple[str, str]]:
     if asked.kind == "entropy":
-        known = [Sets.of(hint) for hint in hints]
-        for made, sets in horseshoe.propose(box, known, asked.size):
+        before = [Sets.of(hint) for hint in hints]
+        for made, sets in horseshoe.propose(box, before, asked.size):
             yield made.certificate(), sets.text if sets else ""
     else:
         steps = [singles.propose(box, asked.size)] if asked.kind == "orbits" else None

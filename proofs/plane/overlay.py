@@ -52,14 +52,14 @@ def overlay(region: Region) -> Overlay:
     if least < epsilon:
         return Overlay([], [])
     proved = _grazing(region, epsilon)
-    found = list(_closed(region, ratio(epsilon)))
+    curves = list(_closed(region, ratio(epsilon)))
     for curve in all_of(proved, GrazingCurve) if proved else ():
-        found.append((GRAZING, curve.n, list(zip(*along(curve), strict=True))))
+        curves.append((GRAZING, curve.n, list(zip(*along(curve), strict=True))))
     meetings = [
         (float(sum(each.box[0]) / 2), float(sum(each.amplitude) / 2))
         for each in (all_of(proved, Meeting) if proved else ())
     ]
-    lines = [Line(name, n, part) for name, n, points in found for part in _inside(region, points)]
+    lines = [Line(name, n, part) for name, n, points in curves for part in _inside(region, points)]
     return Overlay(lines, [place for place in meetings if holds(region, place)])
 
 
@@ -72,13 +72,15 @@ def holds(region: Region, place: tuple[float, float]) -> bool:
 def _inside(region: Region, points: Points) -> Iterator[Points]:
     """Yield the parts of a curve that pass through a region, with an end outside on each side."""
     part: Points = []
-    for one, two in pairwise(points):
-        if any(map(math.isnan, (one[1], two[1]))) or not (holds(region, one) or holds(region, two)):
+    for begin, end in pairwise(points):
+        if any(map(math.isnan, (begin[1], end[1]))) or not (
+            holds(region, begin) or holds(region, end)
+        ):
             if part:
                 yield part
             part = []
         else:
-            part = [*(part or [one]), two]
+            part = [*(part or [begin]), end]
     if part:
         yield part
 
@@ -108,9 +110,9 @@ def _grazing(region: Region, epsilon: Fraction) -> Context | None:
             if part and left >= 0:
                 with suppress(*FAILED):
                     made.grazing(n, part)
-    if not made.found:
+    if not made.traced:
         return None
-    claims = [name for name, _ in made.found + made.meetings]
+    claims = [name for name, _ in made.traced + made.meetings]
     head: dict[str, Any] = {"schema": SCHEMA, "parameters": None, "functions": {}}
     return premises(render({**head, "steps": made.steps, "claims": claims}))
 
@@ -127,7 +129,7 @@ def _near(region: Region, n: int, q: Fraction, run: list[Seen]) -> list[Seen]:
     return run[crossed[0] : crossed[-1] + 2] if crossed else []
 
 
-def _crosses(region: Region, one: tuple[float, float], two: tuple[float, float]) -> bool:
+def _crosses(region: Region, begin: tuple[float, float], end: tuple[float, float]) -> bool:
     """Whether the box around two points meets a region."""
-    sides = zip(one, two, region.sides_of, strict=True)
+    sides = zip(begin, end, region.sides_of, strict=True)
     return all(min(a, b) <= side[1] and max(a, b) >= side[0] for a, b, side in sides)

@@ -97,8 +97,8 @@ def data(region: Region, cells: Iterable[Row]) -> dict[str, Any]:
                 ends |= {at: low, at + size(key, depth): high}
         names = ("eta", "nu")
         place = {"depth": depth, "map": _on_map(region, number)}
-        known = dict(zip(names, sides, strict=True))
-        roots.append(place | known | {"tree": list(tree(f"{number}/"))})
+        coordinates = dict(zip(names, sides, strict=True))
+        roots.append(place | coordinates | {"tree": list(tree(f"{number}/"))})
     return {"patterns": patterns, "said": list(index), "roots": roots}
 
 
@@ -177,14 +177,14 @@ class Stroke(NamedTuple):
 
 def page(store: Store, shown: Shown) -> str:
     """Return the page."""
-    (made, found, verdicts, over), region = shown, store.region
+    (made, regions, verdicts, over), region = shown, store.region
     shares = made["share_of_area"]
-    whole = data(region, store.cells(*LEAVES))
+    leaves = data(region, store.cells(*LEAVES))
     numbers = {name: percent(share) for name, share in shares.items()} | areas(shares)
     layers = [
         Layer(kind, colour, summary.words(kind), numbers[kind], made["kinds"][kind], paths)
         for kind, colour in picture.coloured(verdicts).items()
-        for paths in [[*_paths(region, found[kind])]]
+        for paths in [[*_paths(region, regions[kind])]]
     ]
     return rendered(
         "atlas.html",
@@ -207,7 +207,7 @@ def page(store: Store, shown: Shown) -> str:
         periods=overlay.PERIODS,
         sample=SAMPLE,
         side=SIDE,
-        data=Markup(_json({**whole, "names": picture.labels(region)})),
+        data=Markup(_json({**leaves, "names": picture.labels(region)})),
         ends=Markup(_json({name: [*map(float, side)] for name, side in _sides(region)})),
     )
 

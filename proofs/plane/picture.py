@@ -46,25 +46,25 @@ class Shown(NamedTuple):
     """
 
     made: dict[str, Any]
-    found: dict[str, list[str]]
+    regions: dict[str, list[str]]
     verdicts: dict[str, str]
     over: Overlay
 
 
 def shown(store: Store, made: dict[str, Any]) -> Shown:
     """Return what is shown of a store: cells, as few as are the same part of the plane."""
-    found, verdicts = defaultdict[str, list[str]](list), {}
+    keys_of, verdicts = defaultdict[str, list[str]](list), {}
     for cell in store.cells(Verdict.VERIFIED, Verdict.REFUTED):
-        found[cell.kind].append(cell.key)
+        keys_of[cell.kind].append(cell.key)
         verdicts[cell.kind] = cell.verdict
-    parts = {kind: merged(keys) for kind, keys in found.items()}
+    parts = {kind: merged(keys) for kind, keys in keys_of.items()}
     return Shown(made, parts, verdicts, overlay(store.region))
 
 
 def labels(region: Region) -> tuple[str, str]:
     """Return the names of the parameters as they are shown, the oscillator's in Greek."""
-    one, two = (_GREEK.get(name, name) for name in region.names)
-    return one, two
+    across, up = (_GREEK.get(name, name) for name in region.names)
+    return across, up
 
 
 def coloured(verdicts: Mapping[str, str]) -> dict[str, str]:
@@ -75,7 +75,7 @@ def coloured(verdicts: Mapping[str, str]) -> dict[str, str]:
 
 def picture(region: Region, shown: Shown) -> Drawing:
     """Draw an atlas, the shares of the area in the legend."""
-    made, found, verdicts, over = shown
+    made, regions, verdicts, over = shown
     shares = made["share_of_area"]
     drawing, axes = style.sheet(5.4)
     undecided = f"undecided: {percent(shares[Verdict.UNDECIDED.value])}"
@@ -84,7 +84,7 @@ def picture(region: Region, shown: Shown) -> Drawing:
     axes.set_facecolor(UNDECIDED)
     axes.fill([], [], color=UNDECIDED, label=undecided)
     for kind, colour in coloured(verdicts).items():
-        boxes = map(region.sides, found[kind])
+        boxes = map(region.sides, regions[kind])
         label = f"{words(kind)}: {percent(shares[kind])}"
         style.proved_boxes(axes, joined(boxes), colour, label, lw=0)
     _draw_lines(axes, region, over)

@@ -53,12 +53,12 @@ def _seen(
     """Return orbits of a period in floating point, those next to some points if there are any."""
     starts = [np.array(near).T] if near else []
     for x in (*starts, seeds(sampled, subject.region, _SEEDS * asked.size)):
-        if known := [
+        if orbits := [
             each
             for each in cycles(sampled, asked.size, x)
             if asked.kind == "orbits" or each.multipliers[-1] < 1
         ]:
-            return known
+            return orbits
     return []
 
 

@@ -35,25 +35,25 @@ def built(
     only_text: bool = False,
     pyodide: Path | None = None,
     *,
-    known: Documents = MappingProxyType({}),
+    derived: Documents = MappingProxyType({}),
     each: Each = map,
 ) -> dict[str, str]:
     """Return the files of the report, by their names in the folder; nothing is proved again.
 
     only_text: without the page and the figures of matplotlib, for which packages may be missing.
-    pyodide: where it is, for a page with a checker in it, too. known: what was derived from
+    pyodide: where it is, for a page with a checker in it, too. derived: what came from
     certificates of the folder just now, by name. each: what draws the figures.
     Raises Malformed, Rejected or OSError where the folder has no ledger, or one that its
     certificates do not prove.
     """
-    documents = Certificates(folder, known)
+    documents = Certificates(folder, derived)
     tell("certificates")
-    found = findings(folder, documents)
-    shown = pictures(documents, [claim.id for claim in found.claims])
+    claims = findings(folder, documents)
+    shown = pictures(documents, [claim.id for claim in claims.claims])
     figures = [] if only_text else [picture.figure for picture in shown]
     texts = iter(each(_svg, figures, [documents[figure.certificate] for figure in figures]))
-    files = {"ledger.md": ledger(found, shown), "theorem.md": theorem(found)}
-    files["figures/dependencies.svg"] = graph.svg(found)
+    files = {"ledger.md": ledger(claims, shown), "theorem.md": theorem(claims)}
+    files["figures/dependencies.svg"] = graph.svg(claims)
     if only_text:
         return files
     from proofs.report.html import page  # needs what may be missing
@@ -67,11 +67,11 @@ def built(
     tell("index.html")
     shown = [picture for picture in shown if picture.name in drawn]
     maps = atlases(folder)
-    files["index.html"] = page(found, shown, drawn, atlases=maps)
+    files["index.html"] = page(claims, shown, drawn, atlases=maps)
     if pyodide is not None:
-        certificates = dict.fromkeys(claim.file for claim in found.claims)
+        certificates = dict.fromkeys(claim.file for claim in claims.claims)
         files["checker.html"] = page(
-            found, shown, drawn, checker(pyodide, folder, certificates), maps
+            claims, shown, drawn, checker(pyodide, folder, certificates), maps
         )
     return files
 

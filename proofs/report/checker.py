@@ -77,8 +77,8 @@ def checker(pyodide: Path, folder: Path, files: Iterable[str]) -> Checker:
     contents["trusted.zip"] = trusted()
     texts = {name.removesuffix(".json"): read(folder / name) for name in files}
     contents["certificates"] = json.dumps(texts).encode()
-    whole = json.loads((pyodide / _LOCK).read_text(encoding="utf-8"))
-    lock = json.dumps({**whole, "packages": {}}).replace("<", "\\u003c")
+    lock_file = json.loads((pyodide / _LOCK).read_text(encoding="utf-8"))
+    lock = json.dumps({**lock_file, "packages": {}}).replace("<", "\\u003c")
     return Checker({name: _packed(content) for name, content in contents.items()}, lock)
 
 
@@ -88,8 +88,8 @@ def _worker(pyodide: Path) -> str:
     A page from the disk may start no module as a worker, and nothing in it may import another.
     """
     loader, module = ((pyodide / name).read_text(encoding="utf-8") for name in _MODULES)
-    loader, found = _EXPORTS.subn(r"return \1;", loader)
-    if found != 1 or module.count("export default ") != 1:
+    loader, count = _EXPORTS.subn(r"return \1;", loader)
+    if count != 1 or module.count("export default ") != 1:
         raise NoPyodide(f"the modules in {pyodide} are not those of pyodide {VERSION}")
     module = module.replace("import.meta.url", "self.location.href")
     return "\n".join(

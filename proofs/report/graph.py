@@ -62,7 +62,7 @@ class Falling:
 
 def falling(findings: Findings) -> list[Falling]:
     """Return what falls with each refuted claim of the paper, in its order."""
-    found = []
+    consequences = []
     for claim in findings.claims:
         after = falls_with(claim.id)
         if claim.verdict is Verdict.REFUTED and after:
@@ -70,8 +70,8 @@ def falling(findings: Findings) -> list[Falling]:
             stands = (Verdict.VERIFIED, Verdict.CONDITIONAL)
             standing = tuple(other for other in others if other.verdict in stands)
             rest = tuple(other for other in others if other.verdict not in stands)
-            found.append(Falling(claim, standing, rest))
-    return found
+            consequences.append(Falling(claim, standing, rest))
+    return consequences
 
 
 def svg(findings: Findings) -> str:

@@ -69,7 +69,7 @@ def page(
     )
 
 
-def rendered(template: str, **known: Any) -> str:
+def rendered(template: str, **values: Any) -> str:
     """Return a page by a template, which may include other files of its folder as they are."""
     environment = Environment(
         loader=FileSystemLoader(_TEMPLATES),
@@ -78,9 +78,9 @@ def rendered(template: str, **known: Any) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    known = {"policy": POLICY, **known}
+    values = {"policy": POLICY, **values}
     environment.globals.update(
-        known,
+        values,
         text_of=_text_of,
         MARKS=graph.MARKS,
         MEANINGS=MEANINGS,

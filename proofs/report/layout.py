@@ -91,5 +91,5 @@ def _tenths(count: int) -> str:
 
 
 def _padded(text: str, places: int) -> str:
-    whole, _, digits = text.partition(".")
-    return f"{whole}.{digits.ljust(places, '0')}" if places else whole
+    integer, _, digits = text.partition(".")
+    return f"{integer}.{digits.ljust(places, '0')}" if places else integer

@@ -114,8 +114,8 @@ def _ending(certificate: dict[str, Any], name: str) -> list[str]:
     for claim in certificate["claims"]:
         bounds |= {name: x for name, x in claim["quantities"].items() if name not in bounds}
     rows = [(quantity_name(name), ends["lower"], ends["upper"]) for name, ends in bounds.items()]
-    told = "Each true value lies between the bounds; they are rounded outward."
-    numbers = ["## Numbers", told, table(("quantity", "at least", "at most"), rows)]
+    about = "Each true value lies between the bounds; they are rounded outward."
+    numbers = ["## Numbers", about, table(("quantity", "at least", "at most"), rows)]
     return [
         *(numbers if rows else []),
         "## Check it yourself",

@@ -37,8 +37,8 @@ def specification() -> str:
 def rule_theorem(name: str) -> list[str]:
     """Return what a rule takes and infers, with all proofs, in paragraphs of one line."""
     lemmas = _doc(import_module(str(find_rule(name).__module__)))
-    told = [*theorems(name), *([lemmas] if "Proof" in lemmas else [])]
-    return [" ".join(each.split()) for text in told for each in text.split("\n\n")]
+    texts = [*theorems(name), *([lemmas] if "Proof" in lemmas else [])]
+    return [" ".join(each.split()) for text in texts for each in text.split("\n\n")]
 
 
 def theorems(name: str) -> list[str]:
@@ -46,14 +46,14 @@ def theorems(name: str) -> list[str]:
     rule = find_rule(name)
     waiting: list[object] = [rule]
     seen: set[object] = {*map(find_rule, RULES)}  # which have sections of their own
-    told = [_doc(rule)]
+    paragraphs = [_doc(rule)]
     while waiting:
         for word, named in _named(waiting.pop(0)):
             if named not in seen:
                 seen.add(named)
                 waiting.append(named)
-                told.append(f"`{word}`: {_doc(named)}")
-    return told
+                paragraphs.append(f"`{word}`: {_doc(named)}")
+    return paragraphs
 
 
 def _named(thing: object) -> Iterator[tuple[str, object]]:

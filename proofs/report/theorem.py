@@ -36,31 +36,31 @@ class Sentence(NamedTuple):
 
 def template() -> list[Sentence]:
     """Return the lines of the template; ValueError for a sentence that has no tag."""
-    found = []
+    sentences = []
     text = (resources.files("proofs.report") / "templates" / "theorem.md").read_text("utf-8")
     for line in text.splitlines():
         match = _LINE.fullmatch(line)
         if match is None and line and not line.startswith("#"):
             raise ValueError(f"a sentence without a tag: {line[:60]}")
-        found.append(Sentence(match[1], match[2]) if match else Sentence("", line))
-    return found
+        sentences.append(Sentence(match[1], match[2]) if match else Sentence("", line))
+    return sentences
 
 
 def theorem(findings: Findings) -> str:
     """Return the page, with the sentences whose conclusions the ledger lists."""
-    known, paragraphs = sources(findings), [list[str]()]
+    conclusions, paragraphs = sources(findings), [list[str]()]
     labels = {each.label: each for each in findings.statements.values()}
     above: dict[str, str] = {}  # the theorems of this page, by what is told in them
     number = ""
     for tag, text in template():
-        if tag and tag not in ("def", "classical") and tag not in known:
+        if tag and tag not in ("def", "classical") and tag not in conclusions:
             continue
         if not tag or text == "{text}" or text.startswith(("**Theorem", "*Proof")):
             paragraphs.append([])  # that begins here
         if text == "{text}":
             paragraphs += [[_quoted(findings, labels[tag], above)], []]
             above[tag] = number
-        elif written := f"{rendered(known.get(tag), text)} {_source(tag)}".strip():
+        elif written := f"{rendered(conclusions.get(tag), text)} {_source(tag)}".strip():
             paragraphs[-1].append(written)
         if heading := re.match(r"\*\*(Theorem \d+)", text):
             number = heading[1]
@@ -93,14 +93,14 @@ def _spaced(lines: Sequence[str]) -> Iterator[str]:
 
 def sources(findings: Findings) -> dict[str, Conclusion | None]:
     """Return what a tag may name: labels, steps, and rules, which have no conclusion."""
-    known: dict[str, Conclusion | None] = {
+    conclusions: dict[str, Conclusion | None] = {
         each.label: each.conclusion for each in findings.statements.values()
     }
     for claim in findings.claims:
         for step in claim.steps:
-            known[f"step:{claim.file.removesuffix('.json')}/{step.name}"] = step.conclusion
-            known[f"rule:{step.rule}"] = None
-    return known
+            conclusions[f"step:{claim.file.removesuffix('.json')}/{step.name}"] = step.conclusion
+            conclusions[f"rule:{step.rule}"] = None
+    return conclusions
 
 
 def rendered(conclusion: Conclusion | None, text: str) -> str:

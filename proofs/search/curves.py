@@ -117,7 +117,7 @@ class Curves:
 
     epsilon: Fraction
     steps: dict[str, dict[str, Any]]
-    found: list[tuple[str, Conclusion]] = field(default_factory=list)
+    traced: list[tuple[str, Conclusion]] = field(default_factory=list)
     meetings: list[tuple[str, Conclusion]] = field(default_factory=list)
     failures: list[str] = field(default_factory=list)
 
@@ -164,7 +164,7 @@ class Curves:
             times=[texts(times[piece]) for piece in pieces],
             amplitudes=[texts(nu) for nu in nus],
         )
-        self.found.append((name, curve))
+        self.traced.append((name, curve))
         for other, point in crossings.items():
             try:
                 self._meeting(name, curve, other, point)
@@ -247,12 +247,12 @@ def prove(request: Request) -> Evidence:
             proved = [formulas.prove(need) for need in theorem.needs]
             evidence.proofs[claim] = [each for each in proved if each is not None]
     if request.asks("C2", "C3"):
-        all_of_it = Curves(request.of.epsilon or Fraction(0), formulas.steps)
+        followed = Curves(request.of.epsilon or Fraction(0), formulas.steps)
         for n in range(1, _MOST + 1):
-            for run in seen_curves(n, all_of_it.epsilon):
+            for run in seen_curves(n, followed.epsilon):
                 request.tell(f"grazing for n = {n}, eta from {show(run[0].eta)}")
                 with suppress(*FAILED):
-                    all_of_it.grazing(n, run)
-        evidence.proofs |= {"C2": all_of_it.found, "C3": all_of_it.meetings}
-        evidence.notes["C3"] = "; ".join(all_of_it.failures)
+                    followed.grazing(n, run)
+        evidence.proofs |= {"C2": followed.traced, "C3": followed.meetings}
+        evidence.notes["C3"] = "; ".join(followed.failures)
     return evidence

@@ -11,8 +11,7 @@ from fractions import Fraction
 
 from intervals import Undecided
 from proofs.methods.extremes import extremes
-from proofs.motion.covering import bits_needed, halves, steps_for
-from proofs.motion.digits import phase_after, to_digits
+from proofs.motion.digits import halves, phase_after, to_digits
 from proofs.motion.landing import separation, separation_phase
 from proofs.motion.system import System
 from proofs.motion.witness import (
@@ -37,6 +36,7 @@ _NOT_CUT = (
 )
 _PIECES = 32  # twelve digits take a dozen, but next to the onset of sticking any number
 _ROOM = 30  # bits beyond those that are asked for
+_PRECISIONS = (COVER_BITS, 2 * COVER_BITS, 4 * COVER_BITS, MOST_BITS)
 _COARSE = Fraction(1, 2**12)  # the finest time step where only a set of images is wanted
 
 
@@ -96,9 +96,7 @@ def _image(prover: Prover, phases: Range) -> Image | PossibleImages:
         return _over_interval(prover, phases)
     except NoImpact:
         raise
-    except FAILED as error:
-        if isinstance(error, Unsettled) and error.hopeless:
-            raise
+    except FAILED:
         return _possible(prover, phases, _NOT_CUT)
 
 
@@ -106,7 +104,7 @@ def _sticks(prover: Prover, phases: Range) -> bool | None:
     """Whether all phases stick (True), none does (False), or neither is shown (None)."""
     if prover.system.sticking_arc != "some":
         return prover.system.sticking_arc == "all"
-    for bits in (COVER_BITS, 2 * COVER_BITS, 4 * COVER_BITS, MOST_BITS):
+    for bits in _PRECISIONS:
         low, high = launch_acceleration(Motion(prover.at, phases, bits).start).range
         if low > 0 or high < 0:
             return bool(high < 0)
@@ -224,18 +222,20 @@ def _possible(prover: Prover, phases: Range, reason: str, cuts: int = 5) -> Poss
 
 
 def _windows(flights: FlightBox, horizon: Fraction) -> tuple[Range, ...]:
-    """Prove windows of the first impacts, at the least precision that has an answer."""
-    finest = max(steps_for(flights.phases), _COARSE)
+    """Prove windows of the first impacts, at the least precision that has an answer.
 
-    def at_precision(bits: int) -> tuple[Range, ...]:
-        return march(flights, bits, horizon, finest).proved_windows()
-
-    try:
-        return at_precision(COVER_BITS)
-    except (NoImpact, Unsettled):
-        raise
-    except FAILED:
-        return at_precision(bits_needed(flights, horizon))
+    At a distance w from a grazing phase the gap dips below 0 for a time of the order sqrt(w).
+    """
+    width = flights.phases[1] - flights.phases[0]
+    finest = max(Fraction(1, 8 << (1 / width).__ceil__().bit_length() // 2), _COARSE)
+    for bits in _PRECISIONS[:-1]:
+        try:
+            return march(flights, bits, horizon, finest).proved_windows()
+        except (NoImpact, Unsettled):
+            raise
+        except FAILED:
+            continue
+    return march(flights, MOST_BITS, horizon, finest).proved_windows()
 
 
 def _leaving(system: System, part: Range) -> Range:

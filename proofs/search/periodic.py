@@ -34,8 +34,8 @@ def horseshoe(of: Parameters) -> ImpactMap:
     try:
         return _full_shift(of, of.left, of.right)
     except FAILED as failure:
-        known = [found for _, found in prove(of, ("H5",)).proofs["H5"]]
-        beside = next((f"; it is one on {x.sets}" for x in horseshoes(Found(of, known))), "")
+        conclusions = [conclusion for _, conclusion in prove(of, ("H5",)).proofs["H5"]]
+        beside = next((f"; it is one on {x.sets}" for x in horseshoes(Found(of, conclusions))), "")
         raise Undecided(f"no horseshoe is proved: {failure}{beside}") from None
 
 

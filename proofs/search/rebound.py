@@ -11,8 +11,7 @@ from typing import NamedTuple
 from intervals import Undecided
 from intervals.cover import PartsExhausted, cover
 from proofs.methods.derivation import Derivation
-from proofs.motion.covering import halves
-from proofs.motion.digits import to_digits
+from proofs.motion.digits import halves, to_digits
 from proofs.motion.landing import separation_phase
 from proofs.motion.system import System
 from proofs.motion.witness import HORIZON, Impossible, NoImpact

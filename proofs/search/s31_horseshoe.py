@@ -69,7 +69,7 @@ class _Run:
         """Enclose f' on I0 and on I1, each the hull of those of the sets given."""
         for domains in ([each.left for each in sets], [each.right for each in sets]):
             points = sorted({end for domain in domains for end in domain})
-            if not any(set(points) <= set(known.points) for _, known in self.slopes):
+            if not any(set(points) <= set(enclosed.points) for _, enclosed in self.slopes):
                 proved = self.attempt("slopes", partial(self.prover.slopes, points))
                 if proved is None:
                     return False
@@ -88,12 +88,12 @@ class _Run:
         """Return the steps that a claim rests on: enough to decide it, if they are."""
         proof: Proof = []
         if claim in _NEEDS_SLOPES:
-            proof += [(name, found) for name, found in self.slopes if self._is_about(found)]
+            proof += [step for step in self.slopes if self._is_about(step[1])]
         if claim in _NEEDS_GAP and self._verdict(claim, proof) is Verdict.UNDECIDED:
             proof += self.gaps[:1]
         if self._verdict(claim, proof) is Verdict.UNDECIDED:
-            found = self.witness(claim)
-            proof = proof if found is None else [found]
+            refutation = self.witness(claim)
+            proof = proof if refutation is None else [refutation]
         return proof
 
     def _is_about(self, slopes: SlopeRange) -> bool:
@@ -173,23 +173,23 @@ def prove(
     escapes = needs_gap and next(run.suspects("H4", finest=8, stride=6), None) is None
     if escapes and not run.prove_gap(*sets):
         run.prove_gap(of)
-    found = Evidence(run.prover.steps)
+    evidence = Evidence(run.prover.steps)
     for claim in claims:
         if claim in _DECIDE:
-            found.proofs[claim] = run.evidence(claim)
+            evidence.proofs[claim] = run.evidence(claim)
             parts = ["slopes"] * (claim in needs_slopes) + ["gap"] * (claim in needs_gap)
-            found.notes[claim] = "; ".join(run.failures[x] for x in parts if x in run.failures)
+            evidence.notes[claim] = "; ".join(run.failures[x] for x in parts if x in run.failures)
     if "H11" in claims and max(*of.moran_ratios, *of.reciprocals) < 1:
         ratios = dict.fromkeys((of.moran_ratios, of.reciprocals))
         with suppress(*FAILED):
-            found.proofs["H11"] = [run.prover.root(each) for each in ratios]
+            evidence.proofs["H11"] = [run.prover.root(each) for each in ratios]
     refuted = [
         claim
-        for claim, proof in found.proofs.items()
+        for claim, proof in evidence.proofs.items()
         if claim in _DECIDE and run._verdict(claim, proof) is Verdict.REFUTED
     ]
     correction = run.correction() if refuted else None
     if correction is not None:
         for claim in refuted:
-            found.proofs[claim].append(correction)
-    return found
+            evidence.proofs[claim].append(correction)
+    return evidence

@@ -138,15 +138,17 @@ class _Run:
             return values
 
         def of_words(path: Sequence[complex]) -> list[Images]:
-            known = along(path)
-            return [known[word] for word in words]
+            images = along(path)
+            return [images[word] for word in words]
 
         for rho in ellipses(of_words, hull, self.digits):
-            known = along(boundary(hull, float(rho)))
-            paths = {word: _path(known[word], float(rho)) for word in ends}
-            found = Inverses(letters, words, Ellipse(hull, rho), paths, dict.fromkeys(ends, _ZERO))
+            images = along(boundary(hull, float(rho)))
+            paths = {word: _path(images[word], float(rho)) for word in ends}
+            inverses = Inverses(
+                letters, words, Ellipse(hull, rho), paths, dict.fromkeys(ends, _ZERO)
+            )
             with suppress(Unproved):
-                return enough_arcs(partial(_with_radii, found))
+                return enough_arcs(partial(_with_radii, inverses))
         raise Undecided("no ellipse is found that the inverse branches map into itself")
 
 

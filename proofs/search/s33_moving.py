@@ -90,9 +90,9 @@ def settled(system: System, guess: Moving, margin: float) -> Moving | None:
     for sweep in range(_SWEEPS):
         phases = [_edges(system, now, k, margin) for k in range(len(now.phases))]
         moved = [
-            max(abs(a - b) for a, b in zip(one, two, strict=True))
-            for one, two in zip(now.phases, phases, strict=True)
-            if two is not None
+            max(abs(a - b) for a, b in zip(before, after, strict=True))
+            for before, after in zip(now.phases, phases, strict=True)
+            if after is not None
         ]
         if len(moved) < len(phases):
             return None

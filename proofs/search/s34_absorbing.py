@@ -146,9 +146,9 @@ class Partition:
         cuts = [first + (between[0] - first) * i / self.pieces for i in range(self.pieces + 1)]
         for ends, count in ((cuts, turns), ([between[1], last], 0)):
             witness = {"separation": name, "cuts": texts(ends), "turns": str(count)}
-            step, found = self.prover.derive("lands", witness)
+            step, lands = self.prover.derive("lands", witness)
             self.entries.setdefault("lands", []).append(step)
-            self.lands = *self.lands, found
+            self.lands = *self.lands, lands
         return between
 
     def _height(self, phase: float, image: float) -> float:

@@ -20,38 +20,38 @@ _FIRST, _LEAST = 250, 24  # units: the first step, and the last one
 _MOST = 100  # tries each way
 
 
-def branch(prover: ReboundProver, known: StableCycle, tries: int = _MOST) -> Proof:
+def branch(prover: ReboundProver, stable: StableCycle, tries: int = _MOST) -> Proof:
     """Prove a stable orbit for epsilon around one at which it is known, as far as it goes."""
-    start = place_of(known).sides[2][0]
-    at = replace(place_of(known), epsilon=(start, start))
+    start = place_of(stable).sides[2][0]
+    at = replace(place_of(stable), epsilon=(start, start))
     state = min(
-        ((_mean(box[0]), _mean(box[1])) for box in known.boxes),
-        key=lambda state: seen_from(at, state, len(known.boxes))[1],
+        ((_mean(box[0]), _mean(box[1])) for box in stable.boxes),
+        key=lambda state: seen_from(at, state, len(stable.boxes))[1],
     )
     return [
-        cycle for way in (-1, 1) for cycle in _continued(prover, known, (start, state), way, tries)
+        cycle for way in (-1, 1) for cycle in _continued(prover, stable, (start, state), way, tries)
     ]
 
 
 def _continued(
     prover: ReboundProver,
-    known: StableCycle,
+    stable: StableCycle,
     start: tuple[Fraction, State],
     way: int,
     tries: int,
 ) -> Proof:
     """Prove stable orbits on intervals of epsilon, one after the other, upwards or downwards."""
     (epsilon, state), size, proof = start, _FIRST, Proof()
-    period = len(known.boxes)
+    period = len(stable.boxes)
     for _ in range(tries):
         onward = epsilon + way * size * _UNIT
         ends = min(epsilon, onward), max(epsilon, onward)
         middle = (epsilon + onward) / 2
         try:
             with prover.attempt():
-                at = replace(place_of(known), epsilon=(middle, middle))
+                at = replace(place_of(stable), epsilon=(middle, middle))
                 near = seen_from(at, state, period)[0]
-                cycle = prove_cycle(prover, replace(place_of(known), epsilon=ends), near, period)
+                cycle = prove_cycle(prover, replace(place_of(stable), epsilon=ends), near, period)
         except FAILED:
             size = size * 3 // 4
             if size < _LEAST:

@@ -85,32 +85,32 @@ def prove_entropy(
 
 
 def prove_covering(
-    prover: Prover, found: Branches, depth: int = _DEPTH
+    prover: Prover, branches: Branches, depth: int = _DEPTH
 ) -> list[tuple[str, EntropyBound]]:
     """Prove the covering graph of the largest subshift seen on branches; none, no step."""
-    pieces = [branch.phases for branch in found.branches]
+    pieces = [branch.phases for branch in branches.branches]
     try:
-        states = tower(pieces, found.image, depth, _PLACES)
-        subshift = largest_subshift(pieces, found.image, states)
-        return [] if subshift is None else [_record(prover, found, subshift)]
+        states = tower(pieces, branches.image, depth, _PLACES)
+        subshift = largest_subshift(pieces, branches.image, states)
+        return [] if subshift is None else [_record(prover, branches, subshift)]
     except FAILED:
         return []
 
 
-def _record(prover: Prover, found: Branches, subshift: Subshift) -> tuple[str, EntropyBound]:
+def _record(prover: Prover, branches: Branches, subshift: Subshift) -> tuple[str, EntropyBound]:
     """Record the step `covering-graph`, the growth rounded down."""
     growth = subshift.growth * 10**4 // 1 / Fraction(10**4)
     used = {
         (index, end)
         for low, high in subshift.states
-        for index, (first, last) in enumerate(branch.phases for branch in found.branches)
+        for index, (first, last) in enumerate(branch.phases for branch in branches.branches)
         if low < last and first < high
         for end in (max(low, first), min(high, last))
     }
     kept = sorted({index for index, _ in used})
-    images = [found.bracket(index, phase) for index, phase in sorted(used)]
+    images = [branches.bracket(index, phase) for index, phase in sorted(used)]
     witness = {
-        "branches": [found.names[index] for index in kept],
+        "branches": [branches.names[index] for index in kept],
         "images": images,
         "states": [texts(state) for state in subshift.states],
         "weights": list(map(str, subshift.vector)),

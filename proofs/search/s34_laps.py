@@ -46,7 +46,7 @@ class Laps:
     """The circle, cut where f jumps; `name`: the step `pieces`."""
 
     prover: Prover
-    found: Branches
+    branches: Branches
     name: str
     pieces: Pieces
 
@@ -81,7 +81,7 @@ class Laps:
     def bound(self, lower: tuple[str, EntropyBound], depth: int) -> tuple[str, EntropyRange]:
         """Record the step `itinerary-graph`, the growth rounded up."""
         region = self.pieces.region
-        proved = Images(self.found)
+        proved = Images(self.branches)
 
         @cache
         def images(state: Range) -> list[Range]:
@@ -107,14 +107,14 @@ class Laps:
 class Images:
     """The images of phases on branches, proved when they are asked for, with brackets."""
 
-    found: Branches
+    branches: Branches
     used: dict[Fraction, int] = field(default_factory=dict)
 
     def __call__(self, phase: Fraction) -> Range:
         """Prove and return an image."""
         if phase not in self.used:
-            self.used[phase] = self.found.on(phase)
-        return self.found.image(self.used[phase], phase)
+            self.used[phase] = self.branches.on(phase)
+        return self.branches.image(self.used[phase], phase)
 
     def witness(self) -> list[dict[str, object]]:
         """Return the phases and brackets."""
@@ -122,7 +122,7 @@ class Images:
 
     def bracket(self, phase: Fraction) -> dict[str, object]:
         """Return a phase and its bracket."""
-        return self.found.bracket(self.used[phase], phase)
+        return self.branches.bracket(self.used[phase], phase)
 
 
 # -- grazes ----------------------------------------------------------------------------------------

@@ -14,7 +14,7 @@ from itertools import islice
 
 from intervals import Undecided
 from proofs.motion.chatter import BITS, Pushing, around
-from proofs.motion.covering import halves
+from proofs.motion.digits import halves
 from proofs.motion.simulate import TURNS
 from proofs.motion.transients import INITIAL_STATES, Summary, transients
 from proofs.search.evidence import FAILED, Evidence, Proof

@@ -192,16 +192,16 @@ class Pieces:
         slopes = [self._slopes(piece) for piece in sketch.pieces]
         gaps = [self.prover.avoids(gap, sketch.interval) for gap in sketch.gaps]
         ends = [
-            (known, pair)
-            for known, cuts in zip(slopes, sketch.pieces, strict=True)
+            (proved, pair)
+            for proved, cuts in zip(slopes, sketch.pieces, strict=True)
             for pair in pairwise(cuts)
         ]
         return self.prover.stays([sketch.interval], ends, gaps)
 
     def _slopes(self, piece: Sequence[Fraction]) -> tuple[str, SlopeRange]:
-        for name, known in self._known:
-            if set(piece) <= set(known.points):
-                return name, known
+        for name, slopes in self._known:
+            if set(piece) <= set(slopes.points):
+                return name, slopes
         points = set(piece)
         for sketch in self.sketches:
             for other in sketch.pieces:

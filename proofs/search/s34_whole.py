@@ -72,7 +72,7 @@ class _Whole:
     @cached_property
     def range(self) -> tuple[str, EntropyRange]:
         """Lower and upper bounds of the entropy (rules covering-graph, itinerary-graph)."""
-        lower = prove_covering(self.prover, self.laps.found, _DEPTHS[0])
+        lower = prove_covering(self.prover, self.laps.branches, _DEPTHS[0])
         if not lower:
             raise Undecided("no orbits are seen to stay on the branches")
         return self.laps.bound(lower[0], _DEPTHS[1])
@@ -145,7 +145,7 @@ class _Cutting:
     def _image(self, phase: Fraction) -> Range:
         """Prove a bracket of the impact, and enclose the image."""
         if phase not in self.times:
-            about = Fraction(self.laps.found.impact(float(phase)).time)
+            about = Fraction(self.laps.branches.impact(float(phase)).time)
             time = zero(flight(self.laps.prover, phase), about, 0) - BRACKET / 2
             self.times[phase] = short(time, _BRACKET_PLACES)
         time = self.times[phase]
@@ -157,7 +157,7 @@ class _Cutting:
 
 def prove_cycles(laps: Laps, grown: tuple[str, Expansion]) -> tuple[str, Cycles]:
     """Prove all periodic orbits up to a period (rule cycles)."""
-    images, points = Images(laps.found), Images(laps.found)
+    images, points = Images(laps.branches), Images(laps.branches)
     outer = Outer(grown[1], images)
     alive = [
         word
@@ -189,7 +189,7 @@ def _cycle(laps: Laps, branches: Sequence[Branch]) -> list[Fraction]:
     for _ in range(_SWEEPS):
         before = list(phases)
         for k in reversed(range(len(phases))):
-            seen = laps.found.impact(phases[k])
+            seen = laps.branches.impact(phases[k])
             image = phases[k] + seen.time - math.tau * branches[k].turn
             moved = phases[k] + (phases[(k + 1) % len(phases)] - image) / seen.slope
             phases[k] = min(max(moved, ends[k][0]), ends[k][1])

@@ -123,7 +123,7 @@ def cells(chosen: Sequence[Symbol], spare: float) -> list[tuple[float, float]] |
         if first - low + high - last < spare / 100:
             break
         low, high = first, last
-    apart = all(one[1] + spare / 10 < two[0] for one, two in pairwise(sets))
+    apart = all(left[1] + spare / 10 < right[0] for left, right in pairwise(sets))
     return sets if apart else None
 
 

@@ -16,7 +16,7 @@ from intervals.cover import PartsExhausted, cover
 from proofs.methods.derivation import Derivation
 from proofs.methods.extremes import extremes
 from proofs.methods.moran import moran_root
-from proofs.motion.covering import halves
+from proofs.motion.digits import halves
 from proofs.motion.system import System
 from proofs.motion.witness import FlightBox, NoImpact, name_of
 from proofs.search.evidence import Proved, Steps

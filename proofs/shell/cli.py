@@ -90,7 +90,7 @@ def share(parser: Parser, *names: str, places: int = 30, claims: Sequence[str] =
 
     places: the digits where none are asked for. claims: of which --only is a choice.
     """
-    known: dict[str, dict[str, Any]] = {
+    options: dict[str, dict[str, Any]] = {
         "--only": {"nargs": "+", "choices": claims, "metavar": "ID"}
         | {"help": f"claims, of {' '.join(claims)}"},
         "--digits": {"type": digits, "default": places, "metavar": "N"}
@@ -100,7 +100,7 @@ def share(parser: Parser, *names: str, places: int = 30, claims: Sequence[str] =
         "--quiet": {"action": "store_true", "help": "print nothing but errors"},
     }
     for name in names:
-        parser.add_argument(name, **known[name])
+        parser.add_argument(name, **options[name])
 
 
 def heard(options: Namespace) -> bool:

@@ -47,10 +47,10 @@ def launch(module: str) -> NoReturn:
 
 def run_command(module: str, arguments: list[str] | None = None) -> int:
     """Import a command, and return the status of its `main`; a package's is in its `__main__`."""
-    found = import_module(module)
-    if hasattr(found, "__path__"):
-        found = import_module(f"{module}.__main__")
-    return int(found.main(arguments))
+    command = import_module(module)
+    if hasattr(command, "__path__"):
+        command = import_module(f"{module}.__main__")
+    return int(command.main(arguments))
 
 
 def guarded(prog: str, work: Callable[[], int]) -> int:

@@ -84,19 +84,19 @@ class Job:
 class Settled:
     """A file of claims: its certificate and page, what the checker found in it.
 
-    found: the folder that it was in already.
+    folder: the one that it was in already.
     """
 
     job: Job
     made: Made
     report: Report
-    found: Path | None
+    folder: Path | None
     seconds: float
 
     @property
     def is_new(self) -> bool:
         """Whether it was proved just now."""
-        return self.found is None
+        return self.folder is None
 
     def rows(self, in_coq: Mapping[str, Accepted]) -> list[dict[str, Any]]:
         """Return the entries asked for, for the ledger, with the theorems that Coq has."""
@@ -113,15 +113,15 @@ class Settled:
 
 def jobs(claims: Iterable[str], folder: Path, places: int, fresh: bool) -> list[Job]:
     """Return the files to settle: those that have a claim which no file before them has."""
-    asked, found = set(claims), []
+    asked, chosen_jobs = set(claims), []
     left = set(asked)
     for name, parts in FILES.items():
         members = [claim for ids in parts.values() for claim in ids]
         if left.intersection(members):
             chosen = tuple(claim for claim in members if claim in asked)
-            found.append(Job(name, chosen, folder, places, fresh))
+            chosen_jobs.append(Job(name, chosen, folder, places, fresh))
             left.difference_update(members)
-    return found
+    return chosen_jobs
 
 
 def settle(job: Job) -> Settled:
@@ -138,8 +138,8 @@ def settle(job: Job) -> Settled:
             text = page.read_text(encoding="utf-8") if page.is_file() else ""
             made = Made([], there[0], text)
             return Settled(job, made, there[1], folder, perf_counter() - began)
-    whole = runner.is_whole(job.folder, job.name)
-    claims = runner.claims_of(job.name) if whole else job.claims
+    is_whole = runner.is_whole(job.folder, job.name)
+    claims = runner.claims_of(job.name) if is_whole else job.claims
     made = produce(wanted(job.name, PAPER, claims), PAPER, digits=job.digits)
     report = check(made.certificate)
     return Settled(job, made, report, None, perf_counter() - began)
@@ -167,16 +167,16 @@ def main(arguments: list[str] | None = None) -> int:
     runner.choose_folder(parser, options, not set(asked).issuperset(CLAIMS))
     fresh, places = options.fresh or options.digits is not None, options.digits or runner.PLACES
     options.began = perf_counter()
-    if not fresh and (known := _unchanged(options.out, asked)) is not None:
-        return _told(parser, options, *known)
+    if not fresh and (unchanged := _unchanged(options.out, asked)) is not None:
+        return _told(parser, options, *unchanged)
     try:
         settled = _settle_all(parser, jobs(asked, options.out, places, fresh))
     except (Malformed, Rejected) as error:
         say(f"THE CHECKER DISAGREES WITH THE PROVER, a bug: {error}", sys.stderr)
         return 3
-    certificates = {f"{one.job.name}.json": one.made.certificate for one in settled}
+    certificates = {f"{each.job.name}.json": each.made.certificate for each in settled}
     in_coq = accepted(certificates.values())
-    rows = _in_order([row for one in settled for row in one.rows(in_coq)])
+    rows = _in_order([row for each in settled for row in each.rows(in_coq)])
     text = render({"schema": LEDGER, "claims": rows})
     with refusing(parser, options.out):
         with writing(options.out) as put:
@@ -184,9 +184,9 @@ def main(arguments: list[str] | None = None) -> int:
             put(manifest.NAME, manifest.entered(options.out, certificates))
         pages = _pages(options.out, settled, fresh)
     shown = [
-        f"{one.job.name}: {how} in {one.seconds:.1f} s"
-        for one in settled
-        for how in ["proved and checked" if one.is_new else f"in {one.found}, checked again"]
+        f"{each.job.name}: {how} in {each.seconds:.1f} s"
+        for each in settled
+        for how in ["proved and checked" if each.is_new else f"in {each.folder}, checked again"]
     ]
     return _told(parser, options, text, pages, shown)
 
@@ -249,9 +249,9 @@ def _pages(folder: Path, settled: Sequence[Settled], fresh: bool) -> set[str]:
         return there
     from proofs.report.build import built, missing
 
-    known = {one.job.name: one.report.context for one in settled}
+    derived = {each.job.name: each.report.context for each in settled}
     with progress() as tell, workers(os.cpu_count() or 1) as pool:
-        made = built(folder, tell, bool(missing()), known=known, each=pool.map)
+        made = built(folder, tell, bool(missing()), derived=derived, each=pool.map)
     write_files(folder, made)
     current.record(folder, made_from, made)
     return set(made)
@@ -284,10 +284,10 @@ def _settle_all(parser: Parser, todo: Sequence[Job]) -> list[Settled]:
             tell(f"0 of {len(todo)} groups of claims")
             _load_drawing()
             for future in as_completed(futures):
-                job, found = futures[future], future.result()
-                if found.found != job.folder:
+                job, result = futures[future], future.result()
+                if result.folder != job.folder:
                     with refusing(parser, job.folder):
-                        runner.write(job.folder, job.name, found.made)
-                settled[job] = found
+                        runner.write(job.folder, job.name, result.made)
+                settled[job] = result
                 tell(f"{len(settled)} of {len(todo)} groups of claims")
     return [settled[job] for job in todo]

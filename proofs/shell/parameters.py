@@ -83,13 +83,13 @@ def _with_sets(of: Parameters, given: Mapping[str, Any], is_found: bool) -> Para
     if is_found and elsewhere and not {"left", "right", "interval"} & {*given}:
         from proofs.search.shifts import own_sets
 
-        found = own_sets(of)
-        if found is None:
+        sets = own_sets(of)
+        if sets is None:
             raise Undecided(
                 f"no sets with a horseshoe are seen at {of.place}: give --left and --right, or see "
                 "python -m proofs explore"
             )
-        return replace(found, slopes=given.get("slopes", found.slopes))
+        return replace(sets, slopes=given.get("slopes", sets.slopes))
     return of
 
 

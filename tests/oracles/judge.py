@@ -20,12 +20,11 @@ from tests.oracles import (
     restitution,
     sets,
     single,
-    singles,
 )
 from tests.oracles.adapter import view
 
 MODULES = (
-    *(plastic, sets, circle, laps, restitution, single, singles, formulas, kernel, beyond),
+    *(plastic, sets, circle, laps, restitution, single, formulas, kernel, beyond),
     *(curves, outcomes),
 )
 OTHER_NAMES = {

@@ -15,6 +15,7 @@ import proofs
 from intervals import Undecided
 from proofs import Map, System
 from proofs.commands.system import main
+from proofs.methods.frames import Frames, crossing
 from proofs.methods.grammar import GrammarError
 from proofs.trusted.kernel.enclose import enclosed, point_box
 from proofs.trusted.kernel.meter import DEFAULT
@@ -432,6 +433,11 @@ impact = [{ gap = "y - sin(phi + t)", phi = "phi + t", v = "cos(phi + t)" }]
         ("y - sin(phi + t)", "t*(y - y)", "first derivatives"),
         ("impact = [{", "impact = { all = [{", "'impact' is a list: write \\[\\[impact\\]\\]"),
         ("-g", "-Gamma", "unknown variable 'Gamma'"),
+        (
+            '"0.1"',
+            '"pi/9"',
+            "g: not a number: 'pi/9': what has pi in it is written in the formulas",
+        ),
     ],
 )
 def test_a_file_that_is_wrong_is_told_in_a_line(tmp_path, old, new, reason):
@@ -439,6 +445,7 @@ def test_a_file_that_is_wrong_is_told_in_a_line(tmp_path, old, new, reason):
     text = TEXT.replace(old, new, 1) if old else TEXT
     file.write_text(text.replace("}]", "}] }") if "all = " in new else text)
     if not reason:
+        file.write_text("\ufeff" + TEXT, "utf-8")
         assert System.read(file).variables == ("phi", "v")
         return
     with pytest.raises(GrammarError, match=reason) as refused:
@@ -651,3 +658,15 @@ def test_the_image_of_a_box_is_about_as_wide_as_it_is():
     ):
         first = accepted(map_.image(**sides)).conclusion.bounds[0]
         assert first[0] <= low < high <= first[1] and first[1] - first[0] < (high - low) * 1.01
+
+
+def test_candidates_that_meet_are_none():
+    """3 x takes [-1/5, 1/5] across itself; beside it, a set from 1/10 on meets it."""
+    tripled = Map("3*x")._sampled
+    for other, meets in ((1, False), (0.3, True)):
+        sets = Frames(np.array([[0], [other]]), np.array([[[0.2]]] * 2), ((0, 0),))
+        if meets:
+            with pytest.raises(Undecided, match="two sets meet"):
+                crossing(tripled, sets)
+        else:
+            assert crossing(tripled, sets) > 0.9

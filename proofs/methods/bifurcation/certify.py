@@ -119,9 +119,9 @@ def prove_enclosure(
         bounds[test] = low, high
         return 1 if low > 0 else -1
 
-    found = classified(form.kind, len(form.map.state) == 2, sign)
-    if found.kind != form.kind:
-        raise Undecided(f"{found.kind}: {found.why}")
+    class_ = classified(form.kind, len(form.map.state) == 2, sign)
+    if class_.kind != form.kind:
+        raise Undecided(f"{class_.kind}: {class_.why}")
     determinant = _bounds(file, values["determinant"], box, digits)
     return Enclosed(form, parameter, box, bounds["critical"], bounds["speed"], determinant)
 
@@ -145,22 +145,22 @@ def _guess(
 ) -> dict[str, Fraction]:
     """Return about the solution: first the point, then the unknowns, order by order."""
     names = (*form.map.state, parameter)
-    known = _newton((*form.map.fixed, form.condition()), names, dict(near), bits)
+    guess = _newton((*form.map.fixed, form.condition()), names, dict(near), bits)
     for order in range(1, form.order + 1):
         unknowns = form.unknowns_of(order)
-        known |= dict.fromkeys(unknowns, Fraction(0))
-        known = _newton(form.homological(order), unknowns, known, bits)
-    return known
+        guess |= dict.fromkeys(unknowns, Fraction(0))
+        guess = _newton(form.homological(order), unknowns, guess, bits)
+    return guess
 
 
 def _newton(
-    texts: Any, names: tuple[str, ...], known: dict[str, Fraction], bits: int
+    texts: Any, names: tuple[str, ...], guess: dict[str, Fraction], bits: int
 ) -> dict[str, Fraction]:
     """Solve equations for some names by Newton's method; of too many equations, the first ones."""
     formulas = read_formulas(*map(Reader, texts))
     places = [formulas.variables.index(name) for name in names]
     for _ in range(_NEWTON if len(names) else 0):
-        inputs = [Interval(known.get(x, 0), precision=bits) for x in formulas.variables]
+        inputs = [Interval(guess.get(x, 0), precision=bits) for x in formulas.variables]
         defect = [v.mid for v in values(formulas, inputs)]
         rows = [[row[i].mid for i in places] for row in jacobian(formulas, inputs)]
         chosen = _independent(rows, len(names))
@@ -168,12 +168,12 @@ def _newton(
         steps = [dot(row, [defect[i] for i in chosen]) for row in matrix]
         unit = 2**bits
         for name, step in zip(names, steps, strict=True):
-            known[name] = Fraction(round((known[name] - step) * unit), unit)
+            guess[name] = Fraction(round((guess[name] - step) * unit), unit)
         if max(map(abs, steps)) * unit < 2**20:
-            return known
+            return guess
     if names:
         raise Undecided(f"Newton's method finds no {', '.join(names)}")
-    return known
+    return guess
 
 
 def _independent(rows: list[list[Fraction]], count: int) -> list[int]:

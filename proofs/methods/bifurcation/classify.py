@@ -48,19 +48,19 @@ class Tests:
 
     def nonzero(self, name: str, kind: str, why: str) -> int | None:
         """Require that a number is not 0: if it is, the candidate is of another kind."""
-        found = self.sign(name)
-        if found == 0:
+        sign = self.sign(name)
+        if sign == 0:
             raise _Decided(kind, why)
-        if found is None:
+        if sign is None:
             self.where.append(f"{name} is not 0")
-        return found
+        return sign
 
     def positive(self, name: str, otherwise: Class) -> None:
         """Require that a number is positive."""
-        found = self.sign(name)
-        if found is None:
+        sign = self.sign(name)
+        if sign is None:
             self.where.append(f"{name} > 0")
-        elif found <= 0:
+        elif sign <= 0:
             raise _Decided(otherwise.kind, otherwise.why)
 
 

@@ -82,11 +82,11 @@ def _is_reached(point: Solution, other: Closed) -> bool:
     return any(all(_alike(point[x], values[x]) for x in point) for values in shown)
 
 
-def _alike(one: Any, two: Any) -> bool:
+def _alike(left: Any, right: Any) -> bool:
     """Whether two expressions are about the same at some numbers."""
-    names = sorted((one - two).free_symbols, key=str)
+    names = sorted((left - right).free_symbols, key=str)
     places = {x: Fraction(k * k + 3, k + 2) for k, x in enumerate(names)}
-    return abs(complex((one - two).evalf(30, subs=places))) < _ALIKE
+    return abs(complex((left - right).evalf(30, subs=places))) < _ALIKE
 
 
 def _by_roots(
@@ -140,13 +140,13 @@ def _classified(file: Lemmas, form: NormalForm, point: Solution, parameter: str)
     try:
         with file.undone():
             numbers.require_defined()
-            found = classified(form.kind, len(form.map.state) == 2, numbers.sign)
+            class_ = classified(form.kind, len(form.map.state) == 2, numbers.sign)
             if numbers.open_domain:
-                found = found._replace(where=(*found.where, "the map is defined"))
+                class_ = class_._replace(where=(*class_.where, "the map is defined"))
             numbers.prove()
     except Undecided as failure:
         return Closed(point, Class("undecided", str(failure)), {})
-    return Closed({**point, **numbers.values}, found, numbers.signs)
+    return Closed({**point, **numbers.values}, class_, numbers.signs)
 
 
 class Numbers:

@@ -159,10 +159,10 @@ class Map:
         import sympy
 
         def placed(text: str) -> Any:
-            found = derive.simplest(derive.read(text, places))
-            if not derive.is_real(found):
+            formula = derive.simplest(derive.read(text, places))
+            if not derive.is_real(formula):
                 raise ValueError(f"nowhere a real number: {text[:60]}")
-            return found
+            return formula
 
         _, here, there = (
             sympy.Matrix([[placed(entry) for entry in row] for row in rows])

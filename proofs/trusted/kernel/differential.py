@@ -134,10 +134,10 @@ class Image(Conclusion):
     @property
     def sentence(self) -> str:
         """Return the statement."""
-        place = box_text(self.box, self.function.variables)
+        place, names = box_text(self.box, self.function.variables), labels(self.function)
         return (
             f"for {self.function.definition}: `{self.function.name}` is defined for {place}, and "
-            f"its values are {box_text(self.bounds, labels(self.function))}."
+            f"its values are {'' if names else 'in '}{box_text(self.bounds, names)}."
         )
 
 
@@ -151,7 +151,8 @@ def labels(map_: Map) -> tuple[str, ...]:
     if not all(map(is_name, trees[n:])) or len(trees) < n:
         return ()
     is_other = all(is_name(each) and each not in map_.variables for each in trees)
-    return tuple(trees) if is_other else (*map_.variables, *trees[n:])
+    names = tuple(trees) if is_other else (*map_.variables, *trees[n:])
+    return names if len({*names}) == len(names) else ()
 
 
 def image(context: Context, reader: Reader) -> Image:

@@ -6,7 +6,6 @@ import pytest
 from mpmath import mp, mpf
 
 from proofs.benchmark.peers import FLINT, arithmetic
-from proofs.motion.covering import bits_needed
 from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
 from proofs.motion.witness import FlightBox, Unsettled, locate, march
@@ -97,10 +96,9 @@ def test_intervals_next_to_the_onset_of_sticking_have_images(exponent, share):
 
 
 def test_precision_grows_where_it_must():
-    needed = [bits_needed(flights(PAPER, Fraction("1.11"), Fraction("1.15")))]
+    needed = [locate(flights(PAPER, Fraction("1.13"))).bits]
     for exponent in (1, 6, 12, 24):
-        low = ONSET - Fraction(1, 10**exponent)
-        needed.append(bits_needed(flights(PAPER, low, low + Fraction(1, 10 ** (exponent + 3)))))
+        needed.append(locate(flights(PAPER, ONSET - Fraction(1, 10**exponent))).bits)
     assert needed[0] == needed[1] == COVER_BITS and needed == sorted(needed)
     assert needed[-1] > needed[2] > COVER_BITS
 

@@ -1,5 +1,9 @@
 """A claim takes the calls that it needs, and no others: counted in prover and checker."""
 
+import sys
+from collections import Counter
+from contextlib import contextmanager
+
 import pytest
 
 from intervals.cover import cover
@@ -12,7 +16,6 @@ from proofs.trusted.equations import gap, return_map_derivative, slope
 from proofs.trusted.kernel.expression import Tape
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verify import check
-from tests.calls import calls
 
 WATCHED = gap, slope, return_map_derivative, march, cover, simplest, Mesh.leaning, Tape.evaluate
 STEPS = rules.find_rule
@@ -31,6 +34,24 @@ NEEDED = [  # group, claims, the most calls in a proof, steps of the certificate
     ("circle", "G1", {gap: 100, march: 1}, 1),  # an orbit of period 2: no cells of the circle
     ("horseshoe", "N2", FLOWN, 2),  # no plastic map
 ]
+
+
+@contextmanager
+def calls(*functions):
+    """Count the calls inside the `with`, by qualified name."""
+    counts = Counter()
+    names = {function.__code__: function.__qualname__ for function in functions}
+
+    def observe(frame, event, _):
+        if event == "call" and frame.f_code in names:
+            counts[names[frame.f_code]] += 1
+
+    before = sys.getprofile()
+    sys.setprofile(observe)
+    try:
+        yield counts
+    finally:
+        sys.setprofile(before)
 
 
 @pytest.mark.parametrize("group, claims, most, steps", NEEDED, ids=lambda x: str(x)[:16])

@@ -18,7 +18,7 @@ from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.flight import Flight
 from proofs.trusted.kernel.formulas import Formulas
 from proofs.trusted.kernel.maps import Map
-from proofs.trusted.oscillator import PlasticMap
+from proofs.trusted.oscillator import PaperMap
 from proofs.trusted.rules import RULES
 from proofs.trusted.verify import premises
 from tests.once import committed, report
@@ -55,7 +55,7 @@ WORDS = {  # the fields that are texts, and which: None for those that only the 
     "Theorem.tex": None,
     "Theorem.reported": None,
 }
-MAPS = (Formulas, Flight, Composition, PlasticMap)  # all that are a `Map`, which is a protocol
+MAPS = (Formulas, Flight, PaperMap, Composition)  # all that are a `Map`, which is a protocol
 PHRASES = ("the paper is wrong", "truth", "`, and all is proved", "1 = 1, hence x")
 
 

@@ -234,6 +234,21 @@ def test_where_a_box_is_taken(bounds, tree, is_true):
             proved(PRODUCT, {"i": ("image", witness)})
 
 
+@pytest.mark.parametrize(
+    ("values", "said"),
+    [
+        (["x*y"], "in [-9, 9]"),  # a value that has no name
+        (["x*y", "y", "x"], "in [-9, 9] x [-9, 9] x [-9, 9]"),  # two that would have one name
+        (["y", "x"], "`x` in [-9, 9], `y` in [-9, 9]"),
+    ],
+)
+def test_values_without_names_of_their_own_are_said_to_be_in_a_box(values, said):
+    witness = {"function": "F", "box": [["0", "1"]] * 2, "tree": None}
+    witness["bounds"] = [["-9", "9"]] * len(values)
+    made = {"F": {"variables": ["x", "y"], "values": values}}
+    assert proved(made, {"i": ("image", witness)}).sentence.endswith(f"its values are {said}.")
+
+
 # -- files -----------------------------------------------------------------------------------------
 
 

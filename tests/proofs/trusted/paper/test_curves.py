@@ -159,7 +159,7 @@ def judged(witness):
 @pytest.mark.slow
 def test_prover_and_checker_conclude_the_same():
     curve, point = checked(), judged(steps_of()[1])
-    (_, own), (_, meets) = found().found[0], found().meetings[0]
+    (_, own), (_, meets) = found().traced[0], found().meetings[0]
     assert isinstance(own, GrazingCurve) and isinstance(meets, Meeting)
     assert (curve.sentence, curve.brief) == (own.sentence, own.brief)
     assert (point.sentence, point.quantities) == (meets.sentence, meets.quantities)

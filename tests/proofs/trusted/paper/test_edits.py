@@ -252,6 +252,9 @@ def verify(rule, most):
     assert counts["refused"] > counts["accepted"]
 
 
-@pytest.mark.parametrize("rule", OWN)
+BY_SPEED = [pytest.param(x, marks=[pytest.mark.slow] * (x in LENGTHY)) for x in OWN]
+
+
+@pytest.mark.parametrize("rule", BY_SPEED)
 def test_an_edited_witness_is_refused_or_true(rule):
     verify(rule, 1 if EFFORT.quick or rule in LENGTHY else 2)

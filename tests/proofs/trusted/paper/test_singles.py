@@ -17,7 +17,7 @@ from proofs.trusted.paper.beyond.singles import Part, StableSingles, parts
 from proofs.trusted.parameters import Place
 from proofs.trusted.verify import Rejected, check
 from tests.oracles.judge import oracle
-from tests.oracles.singles import stable as count
+from tests.oracles.single import stable_count as count
 from tests.oracles.sources import committed
 
 F = Fraction
