@@ -1,6 +1,7 @@
 """Adaptive subdivision that provably covers."""
 
 from collections.abc import Callable, Iterable, Iterator
+from fractions import Fraction
 from typing import TypeVar
 
 from intervals.errors import Undecided
@@ -43,3 +44,11 @@ def cover(
             yield part, answer
     if waiting:
         raise PartsExhausted(f"{limit} parts do not suffice; the next one is {waiting[-1]}")
+
+
+def halves(
+    part: tuple[Fraction, Fraction],
+) -> tuple[tuple[Fraction, Fraction], tuple[Fraction, Fraction]]:
+    """Cut an interval in the middle."""
+    middle = (part[0] + part[1]) / 2
+    return (part[0], middle), (middle, part[1])

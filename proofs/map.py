@@ -128,16 +128,15 @@ class Map:
 
         trapping(x=("-1.3", "1.3"), y=("-0.4", "0.4")); others: boxes as {"x": (low, high), ...}.
         """
+        from proofs.methods.lemmas import undecided
         from proofs.methods.trapping import prove_trapping
 
         file, boxes = (
             self._derivation(),
             [box_of(self.variables, each) for each in (state, *others)],
         )
-        try:
+        with undecided():
             return theorem_of(file, [prove_trapping(file, self.function, boxes)])
-        except Unproved as error:
-            raise Undecided(str(error)) from None
 
     def orbits(
         self, period: int = 1, box: Box | None = None, near: Sequence[Mapping[str, Exact]] = ()
@@ -317,7 +316,7 @@ class Map:
     def region(self, box: Box | None = None) -> list[Range]:
         """Return a box where points are looked for: angles all around, others as given."""
         if not isinstance(box, Mapping | None):
-            raise TypeError(f"a box is as {{'x': ('0', '1')}}, not {box!r}")
+            raise ValueError(f"a box is as {{'x': ('0', '1')}}, not {box!r}")
         sides = exact_sides({**self.box, **(box or {})})
         if unknown := sorted({*sides} - {*self.variables}):
             raise ValueError(
@@ -332,13 +331,12 @@ class Map:
 
     def _image(self, file: Any, function: str, state: Mapping[str, Ends]) -> Theorem:
         from proofs.methods.divisions import image_of
+        from proofs.methods.lemmas import undecided
         from proofs.trusted.numbers import ceil_text, floor_text
 
         box = box_of(self.variables, state)
-        try:
+        with undecided():
             tree, image = image_of(file.map(function), box, _BITS)
-        except Unproved as error:
-            raise Undecided(str(error)) from None
         bounds = [
             [str(Fraction(floor_text(low, _DIGITS))), str(Fraction(ceil_text(high, _DIGITS)))]
             for low, high in image

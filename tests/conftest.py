@@ -3,6 +3,7 @@
 import gc
 import os
 import sys
+from contextlib import suppress
 from tempfile import TemporaryDirectory
 
 import pytest
@@ -33,9 +34,11 @@ def pytest_configure(config):
         folder_of_run = TemporaryDirectory()
         config.add_cleanup(folder_of_run.cleanup)
         compiled = user_cache_path("impact-proofs") / "coq"
-        compiled.mkdir(parents=True, exist_ok=True)
         os.environ[once.FOLDER] = os.environ["XDG_CACHE_HOME"] = folder_of_run.name
-        user_cache_path("impact-proofs", ensure_exists=True).joinpath("coq").symlink_to(compiled)
+        own = user_cache_path("impact-proofs", ensure_exists=True) / "coq"
+        with suppress(OSError):  # else the theory is compiled for this run alone
+            compiled.mkdir(parents=True, exist_ok=True)
+            own.symlink_to(compiled)
 
 
 @pytest.hookimpl(tryfirst=True)

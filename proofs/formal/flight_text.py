@@ -17,7 +17,7 @@ Proof.
   repeat (apply (f_equal2 cons); [apply (f_equal2 pair); field |]). reflexivity.
 Qed.
 (* {says} *)
-Theorem {name} : (forall a x, In a arrows{i} -> cell cells{i} (fst a) x -> next x (f x)) /\\
+Theorem {name} : (forall a x, In a arrows{i} -> interval cells{i} (fst a) x -> next x (f x)) /\\
   conjugate f cells{i} arrows{i} ({m} / {n}).
 Proof.
   destruct parameters{i} as (<- & <- & <-). rewrite <- cells{i}_are. split.
@@ -27,7 +27,7 @@ Qed.
 """
 ENTROPY = """
 (* {says} *)
-Theorem {name} : entropy_at_least f cells{i} arrows{i} 1 {growth}.
+Theorem {name} : entropy_at_least on_line f (interval cells{i}) arrows{i} 1 {growth}.
 Proof.
   destruct parameters{i} as (<- & <- & <-). rewrite <- cells{i}_are.
   apply (flights_growth {bits} {unit} ({side}) {eta} ({nu}) ltac:(lia) _ _ _ _ checked{i} {ones} 1 {growth}). reflexivity.

@@ -13,9 +13,8 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from proofs.formal import flight_text
-from proofs.formal.graphs import pairs
 from proofs.formal.hints import SLACK, Branch, Hints, NoHint, steps
-from proofs.formal.written import Writer, rational
+from proofs.formal.written import Writer, pairs, rational
 from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.numbers import Range, hull, show, show_range, within
 from proofs.trusted.paper.s34_circle.other_sets import PRINTED as OTHER

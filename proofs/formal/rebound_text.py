@@ -51,10 +51,9 @@ Proof. vm_cast_no_check (eq_refl true). Qed.
 
 HORSESHOE = """
 (* {says} *)
-Theorem rectangles_horseshoe : exists size,
-  two_sided_shift rebound {A} {b0} {a1} {B} {g0} {g1} {c} {rate} size.
+Theorem rectangles_horseshoe : two_sided_shift rebound {A} {b0} {a1} {B} {g0} {g1} {rate}.
 Proof.
-  apply (strips_horseshoe _ _ _ _ _ _ _ _ _ checked eq_refl) with (p := {p}) (q := {q}) (r := {r}) (s := {s});
+  apply (strips_horseshoe _ _ _ _ _ _ _ _ _ checked eq_refl) with (p := {p}) (q := {q}) (r := {r}) (s := {s}) (c := {c});
     first [less | equal].
 Qed.
 """
@@ -76,10 +75,13 @@ Qed.
 
 EDGE = """
 (* {says} *)
-Theorem printed_edge_falls_short : (exists z, rebound ({x}, {g}) z) /\\
-  forall z, rebound ({x}, {g}) z -> fst z < {x}.
+Theorem printed_edge_falls_short :
+  (exists k : Z, forall f g, {a1} <= f <= {B} -> {g0} <= g <= {g1} ->
+    0 <= f + time f g - 2 * PI * IZR k < 2 * PI) /\\
+  exists z, rebound ({x}, {g}) z /\\ {l} < fst z < {x}.
 Proof.
-  apply (strip_falls_short _ _ _ _ _ _ _ _ _ checked eq_refl) with (x := ({x_})%Z) (g := ({g_})%Z) (t := ({t})%Z);
+  apply (strip_falls_short _ _ _ _ _ _ _ _ _ checked eq_refl) with (A := {A}) (b0 := {b0}) (l := ({l_})%Z)
+    (x := ({x_})%Z) (g := ({g_})%Z) (t0 := ({t0})%Z) (t := ({t})%Z);
     first [vm_compute; reflexivity | equal].
 Qed.
 """

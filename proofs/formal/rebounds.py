@@ -130,18 +130,23 @@ class Rectangles(Writer):
         """Write that a corner of the printed V2 falls short, if it does."""
         if not isinstance(of, Parameters) or of.velocities is None:
             return
-        x, g = of.right[1], of.velocities[0]
+        first, x, g = of.left[0], of.right[1], of.velocities[0]
         (low, high), (least, most) = self.maps[1].box
-        reached = math.tau * self.maps[1].turns[0]
-        time = self.flights[1].impact((float(x), float(g)))
-        if low <= x <= high and least <= g <= most and time < reached - 1e-6:
+        flights = self.flights[1]
+        own = math.tau * self.maps[1].turns[0]  # the time after which the phase is again x
+        time, beyond = flights.impact((float(x), float(g))), own + float(first - x)
+        if low <= x <= high and least <= g <= most and beyond + 1e-6 < time < own - 1e-6:
             says = (
                 f"the printed V2 falls short: ({show(x)}, {show(g)}) on its right edge has an "
-                f"image, at a phase below {show(x)}"
+                f"image at a phase between {show(first)} and {show(x)}, and all images of V2 are "
+                "within one turn of the circle"
             )
-            at = {"x_": self._in_units(x), "g_": self._in_units(g)}
-            at["t"] = int((time + reached) / 2 * self.unit)
-            self.state("printed_edge_falls_short", says, text.EDGE, ("N1",), x=x, g=g, **at)
+            at = {"l_": self._in_units(first), "x_": self._in_units(x), "g_": self._in_units(g)}
+            at["t0"] = max(int((time + beyond) / 2 * self.unit), flights.window.u)
+            at["t"] = int((time + own) / 2 * self.unit)
+            self.state(
+                "printed_edge_falls_short", says, text.EDGE, ("N1",), l=first, x=x, g=g, **at
+            )
 
 
 def case(report: Report, source: str, digest: str) -> Case:

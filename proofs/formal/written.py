@@ -89,3 +89,8 @@ def by_cases(parts: Sequence[tuple[str, Fraction]], tactic: str) -> str:
 def rational(x: Fraction) -> str:
     """Write a rational as a Coq term."""
     return f"({x.numerator}" + (f" / {x.denominator})" if x.denominator > 1 else ")")
+
+
+def pairs(arrows: Sequence[tuple[int, ...]]) -> str:
+    """Write pairs of numbers for Coq."""
+    return "; ".join(f"({a}, {b})" for a, b in arrows)

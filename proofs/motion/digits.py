@@ -38,12 +38,6 @@ def middle(x: Enclosure) -> Fraction:
     return Fraction(x.lo + x.hi, 2 << x.bits)
 
 
-def halves(part: Range) -> tuple[Range, Range]:
-    """Cut an interval in the middle."""
-    middle = (part[0] + part[1]) / 2
-    return (part[0], middle), (middle, part[1])
-
-
 def to_digits(
     digits: int,
     make: Callable[[int], _Answer],

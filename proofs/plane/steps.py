@@ -10,7 +10,7 @@ from itertools import product
 from typing import Any
 
 from intervals import Undecided
-from proofs.motion.digits import halves
+from intervals.cover import halves
 from proofs.motion.witness import BLIND, FlightBox, march
 from proofs.trusted.certificate import SCHEMA
 from proofs.trusted.equations import launch_acceleration

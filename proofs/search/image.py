@@ -10,8 +10,9 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 from intervals import Undecided
+from intervals.cover import halves
 from proofs.methods.extremes import extremes
-from proofs.motion.digits import halves, phase_after, to_digits
+from proofs.motion.digits import phase_after, to_digits
 from proofs.motion.landing import separation, separation_phase
 from proofs.motion.system import System
 from proofs.motion.witness import (

@@ -9,9 +9,9 @@ from functools import partial
 from typing import NamedTuple
 
 from intervals import Undecided
-from intervals.cover import PartsExhausted, cover
+from intervals.cover import PartsExhausted, cover, halves
 from proofs.methods.derivation import Derivation
-from proofs.motion.digits import halves, to_digits
+from proofs.motion.digits import to_digits
 from proofs.motion.landing import separation_phase
 from proofs.motion.system import System
 from proofs.motion.witness import HORIZON, Impossible, NoImpact

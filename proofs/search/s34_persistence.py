@@ -13,8 +13,8 @@ from fractions import Fraction
 from itertools import islice
 
 from intervals import Undecided
+from intervals.cover import halves
 from proofs.motion.chatter import BITS, Pushing, around
-from proofs.motion.digits import halves
 from proofs.motion.simulate import TURNS
 from proofs.motion.transients import INITIAL_STATES, Summary, transients
 from proofs.search.evidence import FAILED, Evidence, Proof

@@ -12,11 +12,10 @@ from functools import cached_property
 from typing import Any
 
 from intervals import Undecided
-from intervals.cover import PartsExhausted, cover
+from intervals.cover import PartsExhausted, cover, halves
 from proofs.methods.derivation import Derivation
 from proofs.methods.extremes import extremes
 from proofs.methods.moran import moran_root
-from proofs.motion.digits import halves
 from proofs.motion.system import System
 from proofs.motion.witness import FlightBox, NoImpact, name_of
 from proofs.search.evidence import Proved, Steps

@@ -67,10 +67,10 @@ Proof.
   destruct (L i I) as [Li _], (L j J) as [Lj _]. split; apply ratio_le; unfold ends_of; lia.
 Qed.
 
-Lemma cell_within i j x : arrow arrows i j -> cell cells i x -> within i x.
+Lemma cell_within i j x : arrow arrows i j -> interval cells i x -> within i x.
 Proof. intros A X. unfold within. destruct (cells_ends i (proj1 (numbers i j A))) as [<- <-]. exact X. Qed.
 
-Lemma smooth i j x : arrow arrows i j -> cell cells i x -> continuity_pt G x.
+Lemma smooth i j x : arrow arrows i j -> interval cells i x -> continuity_pt G x.
 Proof. intros A X. apply (continuous_there i x (source i j A) (cell_within i j x A X)). Qed.
 
 Lemma cover i j : arrow arrows i j -> spans G (left cells i) (right cells i) (left cells j) (right cells j).
@@ -84,10 +84,10 @@ Definition delta : R := / IZR (Zpos unit).
 Lemma delta_pos : 0 < delta.
 Proof. apply Rinv_0_lt_compat, unit_pos. Qed.
 
-Lemma apart i i' j j' x y : arrow arrows i i' -> arrow arrows j j' -> cell cells i x -> cell cells j y -> i <> j ->
+Lemma apart i i' j j' x y : arrow arrows i i' -> arrow arrows j j' -> interval cells i x -> interval cells j y -> i <> j ->
   delta <= Rabs (x - y).
 Proof.
-  assert (Lt : forall i i' j j' x y, arrow arrows i i' -> arrow arrows j j' -> cell cells i x -> cell cells j y ->
+  assert (Lt : forall i i' j j' x y, arrow arrows i i' -> arrow arrows j j' -> interval cells i x -> interval cells j y ->
     (i < j)%nat -> delta <= y - x).
   { intros p p' q q' u v A B U V L. apply (cell_within p p' u A) in U. apply (cell_within q q' v B) in V.
     destruct (ascending_lt ends in_turn q (proj1 (numbers q q' B))) as [_ F].
@@ -109,7 +109,7 @@ Theorem cells_conjugate m : 1 < m ->
   conjugate G cells arrows m.
 Proof.
   intros M E. apply (conjugate_theorem G cells arrows in_order smooth cover delta delta_pos apart m M).
-  assert (Lt : forall i j x y, arrow arrows i j -> cell cells i x -> cell cells i y -> x < y ->
+  assert (Lt : forall i j x y, arrow arrows i j -> interval cells i x -> interval cells i y -> x < y ->
     m * (y - x) <= Rabs (G y - G x)).
   { intros i j x y A X Y L. apply (cell_within i j x A) in X. apply (cell_within i j y A) in Y.
     destruct (E i (source i j A)) as (way & W).
@@ -126,65 +126,11 @@ Proof.
   - rewrite (Rabs_pos_eq (x - y)) by lra. apply (Lt i j); auto.
 Qed.
 
-(* A^p v >= g v for the matrix A of the graph, in whole numbers. *)
-Variable v : list Z.
-Variable p : nat.
-Variable g : Z.
-Definition step (u : list Z) : list Z :=
-  map (fun i => total (map (fun j => nth j u 0%Z) (successors arrows i))) (seq 0 (length ends)).
-Fixpoint distinct (l : list (nat * nat)) : bool :=
-  match l with
-  | [] => true
-  | a :: t => negb (existsb (fun b => (fst a =? fst b)%nat && (snd a =? snd b)%nat) t) && distinct t
-  end.
-Definition growing : bool :=
-  (length v =? length ends)%nat && (0 <=? g)%Z && forallb (Z.leb 0) v && distinct arrows &&
-  forallb (fun a => existsb (fun b => (fst b =? snd a)%nat) arrows) arrows &&
-  forallb (fun ab => (g * fst ab <=? snd ab)%Z) (combine v (Nat.iter p step v)) &&
-  existsb (fun a => (0 <? nth (fst a) v 0)%Z) arrows.
-
-Lemma distinct_NoDup l : distinct l = true -> NoDup l.
+Theorem cells_growth v p g : growing arrows (length ends) v p g = true -> entropy_at_least on_line G (interval cells) arrows p g.
 Proof.
-  induction l as [|[a b] t IH]; intros H; constructor; simpl in H; apply andb_true_iff in H; destruct H as [H D]; auto.
-  intros I. apply negb_true_iff, not_true_iff_false in H. apply H, existsb_exists. exists (a, b).
-  rewrite !Nat.eqb_refl. auto.
-Qed.
-
-Lemma step_weight k : length v = length ends -> length (Nat.iter k step v) = length ends /\
-  forall i, (i < length ends)%nat -> nth i (Nat.iter k step v) 0%Z = weight arrows (fun j => nth j v 0%Z) k i.
-Proof.
-  intros L. induction k as [|k [IL IH]]; simpl; [auto|]. unfold step at 1 3. rewrite map_length, seq_length. split; auto.
-  intros i Hi. rewrite (nth_indep _ 0%Z (total (map (fun j => nth j (Nat.iter k step v) 0%Z) (successors arrows 0))))
-    by (rewrite map_length, seq_length; auto).
-  rewrite (map_nth (fun i => total (map (fun j => nth j (Nat.iter k step v) 0%Z) (successors arrows i)))).
-  rewrite seq_nth by auto. simpl. f_equal. apply map_ext_in. intros j J. apply IH.
-  apply successor in J. apply (numbers i j J).
-Qed.
-
-Theorem cells_growth : growing = true -> entropy_at_least G cells arrows p g.
-Proof.
-  unfold growing. rewrite !andb_true_iff. intros [[[[[[L g0] P] D] N] W] E].
-  apply Nat.eqb_eq in L. apply Z.leb_le in g0. apply existsb_exists in E. destruct E as ([i j] & A & V). apply Z.ltb_lt in V.
-  rewrite forallb_forall in P, N, W.
-  assert (P' : forall i, (0 <= nth i v 0)%Z).
-  { intros k. destruct (Nat.lt_ge_cases k (length v)) as [K|K]; [apply Z.leb_le, P, nth_In, K|rewrite nth_overflow; lia]. }
-  apply (entropy_theorem G cells arrows) with (delta := delta) (v := fun j => nth j v 0%Z) (top := total v) (i := i) (j := j); auto.
-  - apply distinct_NoDup, D.
-  - intros a b B. specialize (N _ B). apply existsb_exists in N. destruct N as ([c k] & C & Q). apply Nat.eqb_eq in Q.
-    simpl in Q. subst c. eauto.
+  apply growth_theorem with (delta := delta); auto using delta_pos, numbers; [| | |exact apart].
+  - intros x. unfold on_line. rewrite Rminus_eq_0. apply Rabs_R0.
+  - intros x y. apply Rabs_minus_sym.
   - apply (proj1 cells_semiconjugate).
-  - apply delta_pos.
-  - apply apart.
-  - intros k. destruct (Nat.lt_ge_cases k (length ends)) as [K|K].
-    + destruct (step_weight p L) as [SL SW]. rewrite <- (SW k K).
-      specialize (W (nth k v 0%Z, nth k (Nat.iter p step v) 0%Z)). apply Z.leb_le, W.
-      rewrite <- combine_nth by congruence. apply nth_In. rewrite combine_length. lia.
-    + rewrite nth_overflow by lia. rewrite Z.mul_0_r.
-      assert (Q : forall q k, (0 <= weight arrows (fun j => nth j v 0%Z) q k)%Z); [|apply Q].
-      induction q as [|q IH]; intros a; simpl; [apply P'|]. induction (successors arrows a) as [|b l IHl]; simpl; [lia|].
-      specialize (IH b). lia.
-  - intros k. split; [apply P'|]. clear - P'. revert k. induction v as [|a l IH]; intros k; [destruct k; simpl; lia|].
-    assert (Pl : forall i, (0 <= nth i l 0)%Z) by (intros q; apply (P' (S q))). pose proof (P' 0%nat) as P0. simpl in P0.
-    destruct k as [|k]; simpl; [|specialize (IH Pl k); lia]. specialize (IH Pl (length l)). rewrite nth_overflow in IH; lia.
 Qed.
 End Cells.

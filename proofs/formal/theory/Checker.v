@@ -3,7 +3,7 @@
 From Coq Require Import Reals ZArith Psatz Lia List Bool.
 From Coquelicot Require Import Coquelicot.
 From Interval Require Import Float_full Interval Xreal.
-From Oscillator Require Import Numbers Formula Graph Paths Cells.
+From Oscillator Require Import Numbers Formula Graph Paths Entropy Cells.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -36,12 +36,14 @@ Section Iterates.
 Variable e : formula.
 Variable bits : positive.
 Notation prec := (F.PtoP bits).
+Definition restricted (x : R) : R := value e x 0.
+Notation at_0 := (I.fromZ prec 0).
 
 Fixpoint image (k : nat) (B : I.type) : option I.type :=
   match k with
   | O => Some B
   | S k => match image k B with
-    | Some E => let V := enclose bits e E in if I.real V then Some V else None
+    | Some E => let V := enclose bits e E at_0 in if I.real V then Some V else None
     | None => None
     end
   end.
@@ -52,35 +54,39 @@ Fixpoint slope (k : nat) (B : I.type) : option I.type :=
   | O => Some (I.fromZ prec 1)
   | S k => match image k B, slope k B with
     | Some E, Some D =>
-      let S := enclose bits (diff e) E in
-      if I.real S && I.real (enclose bits e E) then Some (I.mul prec S D) else None
+      let S := enclose bits (diff true e) E at_0 in
+      if I.real S && I.real (enclose bits e E at_0) then Some (I.mul prec S D) else None
     | _, _ => None
     end
   end.
 
+Lemma zero_holds : holds at_0 0.
+Proof. apply I.fromZ_correct. Qed.
+
 Lemma image_holds k : forall B x E, image k B = Some E -> holds B x ->
-  holds E (iter (value e) k x) /\ continuous (iter (value e) k) x.
+  holds E (iter restricted k x) /\ continuous (iter restricted k) x.
 Proof.
   induction k as [|k IH]; intros B x E H X; simpl in *.
   - injection H as <-. split; [exact X|apply continuous_id].
   - destruct (image k B) as [V|] eqn:Q; [|discriminate]. destruct (IH B x V Q X) as [HV C].
-    destruct (I.real (enclose bits e V)) eqn:Re; [|discriminate]. injection H as <-.
-    destruct (enclosed_real bits e V _ HV Re) as [D HE]. split; [exact HE|].
-    apply (continuous_comp (iter (value e) k) (value e)); [exact C|apply continuous_value, D].
+    destruct (I.real (enclose bits e V at_0)) eqn:Re; [|discriminate]. injection H as <-.
+    destruct (enclosed_real bits e V _ _ _ HV zero_holds Re) as [D HE]. split; [exact HE|].
+    apply (continuous_value (iter restricted k) (fun _ => 0)); [exact C|apply continuous_const|exact D].
 Qed.
 
 Lemma slope_holds k : forall B x D, slope k B = Some D -> holds B x ->
-  exists d, is_derive (iter (value e) k) x d /\ holds D d.
+  exists d, is_derive (iter restricted k) x d /\ holds D d.
 Proof.
   induction k as [|k IH]; intros B x D H X; simpl in *.
   - injection H as <-. exists 1. split; [apply (is_derive_id x)|apply I.fromZ_correct].
   - destruct (image k B) as [V|] eqn:Q; [|discriminate]. destruct (slope k B) as [W|] eqn:Q'; [|discriminate].
     destruct (image_holds k B x V Q X) as [HV _]. destruct (IH B x W Q' X) as (d & Dd & Hd).
-    destruct (I.real (enclose bits (diff e) V)) eqn:R1; [|discriminate].
-    destruct (I.real (enclose bits e V)) eqn:R2; [|discriminate]. injection H as <-.
-    destruct (enclosed_real bits _ V _ HV R1) as [E1 H1]. destruct (enclosed_real bits _ V _ HV R2) as [E2 _].
-    exists (value (diff e) (iter (value e) k x) * d). split; [|apply (I.mul_correct prec _ _ (Xreal _) (Xreal d)); auto].
-    rewrite Rmult_comm. apply (is_derive_comp (value e) (iter (value e) k)); [apply derivative; auto|exact Dd].
+    destruct (I.real (enclose bits (diff true e) V at_0)) eqn:R1; [|discriminate].
+    destruct (I.real (enclose bits e V at_0)) eqn:R2; [|discriminate]. injection H as <-.
+    destruct (enclosed_real bits _ V _ _ _ HV zero_holds R1) as [E1 H1]. destruct (enclosed_real bits _ V _ _ _ HV zero_holds R2) as [E2 _].
+    exists (value (diff true e) (iter restricted k x) 0 * d). split; [|apply (I.mul_correct prec _ _ (Xreal _) (Xreal d)); auto].
+    replace (_ * d) with (slope_of (iter restricted k) (fun _ => 0) x d 0 e) by (unfold slope_of; ring).
+    apply derivative; auto. apply (is_derive_const (K := R_AbsRing) (V := R_NormedModule)).
 Qed.
 End Iterates.
 
@@ -90,7 +96,7 @@ Variable power : nat.
 Variable unit : positive.
 Variable ends : list (Z * Z).
 Variable arrows : list (nat * nat).
-Notation G := (iter (value e) power).
+Notation G := (iter (restricted e) power).
 Notation number := (fun bits => number bits unit).
 Notation ends_of := (ends_of ends).
 Notation cells := (cells unit ends).
@@ -174,6 +180,6 @@ Proof.
     + apply (always_holds _ _ DEPTH (steep_holds false bits) (whole bits i) z E), range_holds, Z.
 Qed.
 
-Theorem growth_checked v p g : growing ends arrows v p g = true -> entropy_at_least G cells arrows p g.
+Theorem growth_checked v p g : growing arrows (length ends) v p g = true -> entropy_at_least on_line G (interval cells) arrows p g.
 Proof. apply cells_growth; [apply checks|apply continuous_there|apply covers_along]. Qed.
 End Check.

@@ -1,7 +1,8 @@
-(* Covering and cone conditions in the plane give the two-sided full shift. No numbers, no impacts. *)
+(* Boxes in the plane that a map takes across each other along arrows, with cones: each two-sided path
+   of arrows is that of exactly one full orbit. No numbers. *)
 From Coq Require Import Reals ZArith Psatz Lia FunctionalExtensionality.
 From Coquelicot Require Import Coquelicot.
-From Oscillator Require Import Impact Rebounds.
+From Oscillator Require Import Histories.
 Open Scope R_scope.
 
 (* Cones: differences |dg| <= c |dx| go to such and grow p - q c times; those that go to
@@ -23,133 +24,168 @@ Proof.
 Qed.
 
 Section Crossed.
+Variable letter : Type.
+Variable arrow : letter -> letter -> Prop.
+
+(* The set of a letter is a box in coordinates of its own. *)
+Variables x0 x1 y0 y1 : letter -> R.
+Definition box (i : letter) (q : R * R) : Prop := x0 i <= fst q <= x1 i /\ y0 i <= snd q <= y1 i.
+Variable chart coordinates : letter -> R * R -> R * R.
+Variable boxed : letter -> R * R -> Prop.
+Hypothesis boxes : forall i z, boxed i z <-> exists q, box i q /\ z = chart i q.
+Hypothesis order : forall i, x0 i <= x1 i /\ y0 i <= y1 i.
+Hypothesis charted : forall i q, coordinates i (chart i q) = q.
+
+(* The map in coordinates: on a box, where its image is in another box. *)
 Variable N : R * R -> R * R -> Prop.
-Variables A b0 a1 B g0 g1 : R.
-Notation V := (rectangle A b0 a1 B g0 g1).
-Notation I := (In_ A b0 a1 B).
-Hypothesis order : A < b0 < a1 /\ a1 < B.
-Hypothesis height_pos : g0 < g1.
+Variables P Q : letter -> letter -> R * R -> R.
+Hypothesis N_PQ : forall i j q q', arrow i j -> box i q -> box j q' ->
+  (N (chart i q) (chart j q') <-> q' = (P i j q, Q i j q)).
 
-(* N is (P, Q) on the rectangles. *)
-Variables P Q : R * R -> R.
-Hypothesis N_PQ : forall i z z', V i z -> (N z z' <-> z' = (P z, Q z)).
-Hypothesis back : forall i j z z' y, V i z -> V j z' -> N z y -> N z' y -> z = z'.
+(* Images of horizontal lines run across the box, and do not leave it through the other sides. *)
+Hypothesis across : forall i j y g, arrow i j -> x0 j <= y <= x1 j -> y0 i <= g <= y1 i ->
+  exists x, x0 i <= x <= x1 i /\ P i j (x, g) = y.
+Hypothesis into : forall i j q, arrow i j -> box i q -> x0 j <= P i j q <= x1 j -> y0 j <= Q i j q <= y1 j.
+Hypothesis disjoint : forall i i' j j' z, arrow i i' -> arrow j j' -> boxed i z -> boxed j z -> i = j.
 
-(* Images of horizontal lines cover [A, B]; image velocities are allowed. *)
-Hypothesis cover : forall i y g, A <= y <= B -> g0 <= g <= g1 -> exists x, I i x /\ P (x, g) = y.
-Hypothesis into : forall i z, V i z -> g0 <= Q z <= g1.
-
-(* Bounds p, q, r, s on differences as on the entries of DF. *)
+(* Bounds p, q, r, s on differences as on the entries of the derivative. *)
 Variables p q r s c k : R.
 Hypothesis signs : 0 < p /\ 0 <= q /\ 0 <= r /\ 0 <= s /\ 0 < c /\ 0 <= k < 1.
-Hypothesis stretch : forall i z z', V i z -> V i z' ->
-  p * Rabs (fst z - fst z') <= Rabs (P z - P z') + q * Rabs (snd z - snd z').
-Hypothesis shrink : forall i z z', V i z -> V i z' ->
-  Rabs (Q z - Q z') <= r * Rabs (fst z - fst z') + s * Rabs (snd z - snd z').
+Hypothesis stretch : forall i j z z', arrow i j -> box i z -> box i z' ->
+  p * Rabs (fst z - fst z') <= Rabs (P i j z - P i j z') + q * Rabs (snd z - snd z').
+Hypothesis shrink : forall i j z z', arrow i j -> box i z -> box i z' ->
+  Rabs (Q i j z - Q i j z') <= r * Rabs (fst z - fst z') + s * Rabs (snd z - snd z').
 Hypothesis rate_x : 1 + q * c <= k * p.
-Hypothesis rate_g : r + s * c <= k * c.
-Notation near := (near c).
-Notation orbit := (orbit N A b0 a1 B g0 g1).
+Hypothesis rate_g : r * k + s * c <= k * c.
 
-Lemma I_range i x : I i x -> A <= x <= B.
-Proof. destruct i; unfold In_; lra. Qed.
+(* What charts make of differences, and the size of all boxes. *)
+Variables e0 largest : R.
+Hypothesis e0_pos : 0 < e0.
+Hypothesis small : forall i, x1 i - x0 i <= e0 /\ y1 i - y0 i <= c * e0.
+Definition near (e : R) (z z' : R * R) : Prop := Rabs (fst z - fst z') <= e /\ Rabs (snd z - snd z') <= c * e.
+Hypothesis chart_near : forall i e z z', near e z z' ->
+  Rabs (fst (chart i z) - fst (chart i z')) <= largest * e /\ Rabs (snd (chart i z) - snd (chart i z')) <= largest * e.
 
-(* The point on the line of velocity g that goes to phase y. *)
-Definition solve (i : bool) (y g : R) : R := iota (fun x => I i x /\ P (x, g) = y).
+Notation history := (history letter).
+Notation from := (from letter).
+Notation allowed := (allowed letter arrow).
+Notation orbit := (orbit letter boxed N).
 
-Lemma solve_spec i y g : A <= y <= B -> g0 <= g <= g1 -> I i (solve i y g) /\ P (solve i y g, g) = y.
+(* The point of a box on the line of height g that goes to y. *)
+Definition solve (i j : letter) (y g : R) : R := iota (fun x => x0 i <= x <= x1 i /\ P i j (x, g) = y).
+
+Lemma solve_unique i j x g y : arrow i j -> x0 i <= x <= x1 i -> y0 i <= g <= y1 i -> P i j (x, g) = y ->
+  solve i j y g = x.
 Proof.
-  intros Y G. apply (iota_correct (V := R_CompleteNormedModule) (fun x => I i x /\ P (x, g) = y)).
-  destruct (cover i y g Y G) as (x & X & E). exists x. split; auto.
-  enough (U : forall x' : R, I i x' /\ P (x', g) = y -> x = x') by exact U. intros x' [X' E'].
-  assert (H := stretch i (x, g) (x', g) (conj X G) (conj X' G)). simpl in H.
+  intros A X G E. apply (iota_unique (V := R_CompleteNormedModule)); auto.
+  enough (U : forall x' : R, x0 i <= x' <= x1 i /\ P i j (x', g) = y -> x' = x) by exact U. intros x' [X' E']. pose proof (stretch i j (x, g) (x', g) A (conj X G) (conj X' G)) as H. simpl in H.
   rewrite E, E', !Rminus_eq_0, Rabs_R0 in H.
   destruct (Req_dec x x') as [|D]; auto. assert (0 < Rabs (x - x')) by (apply Rabs_pos_lt; lra). nra.
+Qed.
+
+Lemma solve_spec i j y g : arrow i j -> x0 j <= y <= x1 j -> y0 i <= g <= y1 i ->
+  x0 i <= solve i j y g <= x1 i /\ P i j (solve i j y g, g) = y.
+Proof.
+  intros A Y G. destruct (across i j y g A Y G) as (x & X & E). rewrite (solve_unique i j x g y); auto.
+Qed.
+
+Lemma solve_near i j y y' h h' e : arrow i j -> x0 j <= y <= x1 j -> x0 j <= y' <= x1 j ->
+  y0 i <= h <= y1 i -> y0 i <= h' <= y1 i -> Rabs (y - y') <= e -> Rabs (h - h') <= c * e ->
+  Rabs (solve i j y h - solve i j y' h') <= k * e.
+Proof.
+  intros A Y Y' H H' Dy Dh. destruct (solve_spec i j y h A Y H) as [X E], (solve_spec i j y' h' A Y' H') as [X' E'].
+  pose proof (stretch i j (solve i j y h, h) (solve i j y' h', h') A (conj X H) (conj X' H')) as S. simpl in S.
+  rewrite E, E' in S. assert (0 <= e) by (eapply Rle_trans; [apply Rabs_pos|exact Dy]).
+  assert (q * Rabs (h - h') <= q * (c * e)) by (apply Rmult_le_compat_l; lra).
+  assert ((1 + q * c) * e <= k * p * e) by (apply Rmult_le_compat_r; lra).
+  apply Rmult_le_reg_l with p; lra.
+Qed.
+
+(* A point anew, from those after and before it. *)
+Definition renewed (h i j : letter) (before here after : R * R) : R * R :=
+  (solve i j (fst after) (snd here), Q h i (solve h i (fst here) (snd before), snd before)).
+
+Lemma renewed_box h i j b z a : arrow h i -> arrow i j -> box h b -> box i z -> box j a -> box i (renewed h i j b z a).
+Proof.
+  intros A A' [_ B] [Zx Zy] [Ax _]. destruct (solve_spec h i (fst z) (snd b) A Zx B) as [X E].
+  split; simpl; [apply solve_spec; auto|]. apply into; auto; [split; auto|]. rewrite E. exact Zx.
+Qed.
+
+Lemma renewed_near h i j e b b' z z' a a' : arrow h i -> arrow i j -> box h b -> box h b' -> box i z -> box i z' ->
+  box j a -> box j a' -> near e b b' -> near e z z' -> near e a a' ->
+  near (k * e) (renewed h i j b z a) (renewed h i j b' z' a').
+Proof.
+  intros A A' [_ B] [_ B'] [Zx Zy] [Zx' Zy'] [Ax _] [Ax' _] [_ Nb] [Nz Nh] [Na _].
+  split; simpl; [apply solve_near; auto|].
+  destruct (solve_spec h i (fst z) (snd b) A Zx B) as [X _], (solve_spec h i (fst z') (snd b') A Zx' B') as [X' _].
+  pose proof (solve_near h i _ _ _ _ e A Zx Zx' B B' Nz Nb) as Sn.
+  pose proof (shrink h i (solve h i (fst z) (snd b), snd b) (solve h i (fst z') (snd b'), snd b') A (conj X B) (conj X' B')) as T.
+  simpl in T. assert (0 <= e) by (eapply Rle_trans; [apply Rabs_pos|exact Nz]).
+  assert (r * Rabs (solve h i (fst z) (snd b) - solve h i (fst z') (snd b')) <= r * (k * e)) by (apply Rmult_le_compat_l; lra).
+  assert (s * Rabs (snd b - snd b') <= s * (c * e)) by (apply Rmult_le_compat_l; lra).
+  assert ((r * k + s * c) * e <= k * c * e) by (apply Rmult_le_compat_r; lra). lra.
 Qed.
 
 Lemma near_sym e z z' : near e z z' -> near e z' z.
 Proof. intros [X G]. split; rewrite Rabs_minus_sym; auto. Qed.
 
-(* One step: bounds at the next phase, this velocity and the state before give bounds here. *)
-Lemma step i j e z z' h h' y y' : V i z -> V i z' -> V j y -> V j y' ->
-  Rabs (P (fst z, h) - P (fst z', h')) <= e -> Rabs (h - h') <= c * e -> g0 <= h <= g1 -> g0 <= h' <= g1 ->
-  snd z = Q y -> snd z' = Q y' -> near e y y' -> near (k * e) z z'.
-Proof.
-  intros [Z1 Z2] [Z1' Z2'] Y Y' Hp Hh G G' E E' [Ny Ng].
-  pose proof (stretch i (fst z, h) (fst z', h') (conj Z1 G) (conj Z1' G')) as S. simpl in S.
-  pose proof (shrink j y y' Y Y') as T. rewrite <- E, <- E' in T.
-  assert (0 <= e) by (eapply Rle_trans; [apply Rabs_pos|exact Hp]).
-  assert (q * Rabs (h - h') <= q * (c * e)) by (apply Rmult_le_compat_l; lra).
-  assert (r * Rabs (fst y - fst y') <= r * e) by (apply Rmult_le_compat_l; lra).
-  assert (s * Rabs (snd y - snd y') <= s * (c * e)) by (apply Rmult_le_compat_l; lra).
-  assert ((1 + q * c) * e <= k * p * e) by (apply Rmult_le_compat_r; lra).
-  assert ((r + s * c) * e <= k * c * e) by (apply Rmult_le_compat_r; lra).
-  split; [apply Rmult_le_reg_l with p|]; lra.
-Qed.
+Lemma box_near i z z' : box i z -> box i z' -> near e0 z z'.
+Proof. intros [Zx Zy] [Zx' Zy']. destruct (small i). split; apply Rabs_le; lra. Qed.
+
+Lemma allowed_from n w : allowed w -> allowed (from n w).
+Proof. intros A m. unfold Histories.from. rewrite Z.add_assoc. apply A. Qed.
+
+Lemma arrows w : allowed w -> arrow (w (-1)%Z) (w 0%Z) /\ arrow (w 0%Z) (w 1%Z).
+Proof. intros A. split; [apply (A (-1)%Z)|apply (A 0%Z)]. Qed.
 
 (* Iterates that depend on ever more of the history. *)
-Definition start (i : bool) : R * R := (if i then a1 else A, g0).
 Fixpoint approx (n : nat) (w : history) : R * R :=
   match n with
-  | O => start (w 0%Z)
-  | S n => (solve (w 0%Z) (fst (approx n (from 1 w))) (snd (approx n w)), Q (approx n (from (-1) w)))
+  | O => (x0 (w 0%Z), y0 (w 0%Z))
+  | S n => renewed (w (-1)%Z) (w 0%Z) (w 1%Z) (approx n (from (-1) w)) (approx n w) (approx n (from 1 w))
   end.
 
-Lemma V_range i z : V i z -> A <= fst z <= B /\ g0 <= snd z <= g1.
-Proof. intros [X G]. split; auto. apply (I_range i), X. Qed.
-
-Lemma approx_V n : forall w, V (w 0%Z) (approx n w).
+Lemma approx_box n : forall w, allowed w -> box (w 0%Z) (approx n w).
 Proof.
-  induction n as [|n IH]; intros w; simpl.
-  - unfold start, rectangle, In_; simpl. destruct (w 0%Z); lra.
-  - split; simpl; [apply solve_spec; apply (V_range _ _ (IH _))|apply (into _ _ (IH (from (-1) w)))].
+  induction n as [|n IH]; intros w A; simpl.
+  - unfold box; simpl. pose proof (order (w 0%Z)). lra.
+  - destruct (arrows w A). apply renewed_box; auto.
+    + apply (IH (from (-1) w)), allowed_from, A.
+    + apply (IH (from 1 w)), allowed_from, A.
 Qed.
 
-Definition e0 : R := (B - A) + (g1 - g0) / c.
-
-Lemma e0_pos : 0 < e0.
-Proof. unfold e0. assert (0 < (g1 - g0) / c) by (apply Rdiv_lt_0_compat; lra). lra. Qed.
-
-Lemma V_near i z z' : V i z -> V i z' -> near e0 z z'.
-Proof.
-  intros Z Z'. apply V_range in Z, Z'. assert (0 < (g1 - g0) / c) by (apply Rdiv_lt_0_compat; lra).
-  unfold e0. split; apply Rabs_le; [lra|].
-  replace (c * (B - A + (g1 - g0) / c)) with (c * (B - A) + (g1 - g0)) by (field; lra).
-  assert (0 < c * (B - A)) by (apply Rmult_lt_0_compat; lra). lra.
-Qed.
-
-Lemma agree_from (w w' : history) n m : (Z.abs m <= 1)%Z ->
-  (forall j, (Z.abs j <= Z.of_nat (S n))%Z -> w j = w' j) ->
-  forall j, (Z.abs j <= Z.of_nat n)%Z -> from m w j = from m w' j.
+Lemma agree_from (w v : history) n m : (Z.abs m <= 1)%Z ->
+  (forall j, (Z.abs j <= Z.of_nat (S n))%Z -> w j = v j) ->
+  forall j, (Z.abs j <= Z.of_nat n)%Z -> from m w j = from m v j.
 Proof. intros M H j J. apply H. lia. Qed.
 
-Lemma approx_near n : forall w w' m m', (forall j, (Z.abs j <= Z.of_nat n)%Z -> w j = w' j) ->
-  (n <= m)%nat -> (n <= m')%nat -> near (k ^ n * e0) (approx m w) (approx m' w').
+Lemma approx_near n : forall w v m m', allowed w -> allowed v -> (forall j, (Z.abs j <= Z.of_nat n)%Z -> w j = v j) ->
+  (n <= m)%nat -> (n <= m')%nat -> near (k ^ n * e0) (approx m w) (approx m' v).
 Proof.
-  induction n as [|n IH]; intros w w' m m' H M M'.
-  - rewrite pow_O, Rmult_1_l. apply (V_near (w 0%Z)); [apply approx_V|].
-    rewrite (H 0%Z) by lia. apply approx_V.
-  - destruct m as [|m]; [lia|]. destruct m' as [|m']; [lia|].
-    pose proof (IH _ _ m m' (agree_from w w' n 1 ltac:(lia) H) ltac:(lia) ltac:(lia)) as [Hx _].
-    pose proof (IH _ _ m m' (agree_from w w' n (-1) ltac:(lia) H) ltac:(lia) ltac:(lia)) as Hb.
-    assert (Hh : near (k ^ n * e0) (approx m w) (approx m' w')) by (apply IH; [intros j J; apply H; lia|lia|lia]).
-    pose proof (approx_V (S m) w) as Z. pose proof (approx_V (S m') w') as Z'.
-    pose proof (approx_V m (from (-1) w)) as Y. pose proof (approx_V m' (from (-1) w')) as Y'.
-    rewrite <- (H 0%Z) in Z' by lia. unfold from at 1 in Y'. rewrite <- (H (-1 + 0)%Z) in Y' by lia.
+  induction n as [|n IH]; intros w v m m' A A' H M M'.
+  - rewrite pow_O, Rmult_1_l. apply (box_near (w 0%Z)); [apply approx_box, A|].
+    rewrite (H 0%Z) by lia. apply approx_box, A'.
+  - destruct m as [|m]; [lia|]. destruct m' as [|m']; [lia|]. cbn [approx].
+    rewrite <- (H 0%Z), <- (H 1%Z), <- (H (-1)%Z) by lia.
     replace (k ^ S n * e0) with (k * (k ^ n * e0)) by (simpl; ring).
-    apply (step (w 0%Z) _ _ _ _ (snd (approx m w)) (snd (approx m' w')) _ _ Z Z' Y Y'); auto;
-      try apply (V_range _ _ (approx_V _ _)); try apply Hh.
-    simpl. rewrite <- (H 0%Z) by lia.
-    destruct (solve_spec (w 0%Z) (fst (approx m (from 1 w))) (snd (approx m w))) as [_ E1];
-      try apply (V_range _ _ (approx_V _ _)).
-    destruct (solve_spec (w 0%Z) (fst (approx m' (from 1 w'))) (snd (approx m' w'))) as [_ E2];
-      try apply (V_range _ _ (approx_V _ _)).
-    rewrite E1, E2. exact Hx.
+    pose proof (fun d => allowed_from d w A) as F. pose proof (fun d => allowed_from d v A') as F'.
+    destruct (arrows w A). apply renewed_near; auto.
+    + apply (approx_box m (from (-1) w)), F.
+    + pose proof (approx_box m' (from (-1) v) (F' (-1)%Z)) as B. unfold Histories.from at 1 in B.
+      rewrite <- (H (-1 + 0)%Z) in B by lia. exact B.
+    + apply approx_box, A.
+    + rewrite (H 0%Z) by lia. apply approx_box, A'.
+    + apply (approx_box m (from 1 w)), F.
+    + pose proof (approx_box m' (from 1 v) (F' 1%Z)) as B. unfold Histories.from at 1 in B.
+      rewrite <- (H (1 + 0)%Z) in B by lia. exact B.
+    + apply IH; auto; [apply agree_from; auto; lia|lia|lia].
+    + apply IH; auto; [intros j J; apply H; lia|lia|lia].
+    + apply IH; auto; [apply agree_from; auto; lia|lia|lia].
 Qed.
 
 Lemma rate_vanishes eps : 0 < eps -> exists n, k ^ n * e0 < eps /\ c * (k ^ n * e0) < eps.
 Proof.
-  intros E. pose proof e0_pos as E0. assert (c0 : 0 < c) by lra.
+  intros E. assert (c0 : 0 < c) by lra.
   assert (M : 0 < e0 * (1 + c)) by (apply Rmult_lt_0_compat; lra).
   assert (D : 0 < eps / (e0 * (1 + c))) by (apply Rdiv_lt_0_compat; lra).
   destruct (pow_lt_1_zero k ltac:(rewrite Rabs_pos_eq; lra) _ D) as [n H']. exists n.
@@ -160,8 +196,8 @@ Proof.
   assert (0 <= c * (k ^ n * e0)) by (apply Rmult_le_pos; lra). lra.
 Qed.
 
-(* The limit, and how near it is. *)
-Definition X (w : history) : R * R :=
+(* The limit, in coordinates, and how near it is. *)
+Definition limit (w : history) : R * R :=
   (real (Lim_seq (fun n => fst (approx n w))), real (Lim_seq (fun n => snd (approx n w)))).
 
 Lemma cauchy (f : nat -> R) : (forall eps, 0 < eps -> exists n, forall m m', (n <= m)%nat -> (n <= m')%nat ->
@@ -171,10 +207,11 @@ Proof.
   destruct (H eps (cond_pos eps)) as [n Hn]. exists n. auto.
 Qed.
 
-Lemma X_lim w : is_lim_seq (fun n => fst (approx n w)) (fst (X w)) /\ is_lim_seq (fun n => snd (approx n w)) (snd (X w)).
+Lemma limit_is w : allowed w ->
+  is_lim_seq (fun n => fst (approx n w)) (fst (limit w)) /\ is_lim_seq (fun n => snd (approx n w)) (snd (limit w)).
 Proof.
-  split; apply cauchy; intros eps E; destruct (rate_vanishes eps E) as (n & H1 & H2); exists n; intros m m' M M';
-    destruct (approx_near n w w m m' ltac:(auto) M M'); simpl in *; lra.
+  intros A. split; apply cauchy; intros eps E; destruct (rate_vanishes eps E) as (n & H1 & H2); exists n; intros m m' M M';
+    destruct (approx_near n w w m m' A A ltac:(auto) M M'); simpl in *; lra.
 Qed.
 
 Lemma lim_close (f : nat -> R) (l a e : R) n : is_lim_seq f l -> (forall m, (n <= m)%nat -> Rabs (f m - a) <= e) -> Rabs (l - a) <= e.
@@ -188,26 +225,28 @@ Proof.
   apply Rabs_le. lra.
 Qed.
 
-Lemma X_near n w z : (forall m, (n <= m)%nat -> near (k ^ n * e0) (approx m w) z) -> near (k ^ n * e0) (X w) z.
+Lemma limit_near n w z : allowed w -> (forall m, (n <= m)%nat -> near (k ^ n * e0) (approx m w) z) ->
+  near (k ^ n * e0) (limit w) z.
 Proof.
-  intros H. destruct (X_lim w) as [L1 L2].
+  intros A H. destruct (limit_is w A) as [L1 L2].
   split; [apply (lim_close _ _ _ _ n L1)|apply (lim_close _ _ _ _ n L2)]; intros m M; apply (H m M).
 Qed.
 
-Lemma X_close n w w' : (forall j, (Z.abs j <= Z.of_nat n)%Z -> w j = w' j) -> near (k ^ n * e0) (X w) (X w').
+Lemma limit_close n w v : allowed w -> allowed v -> (forall j, (Z.abs j <= Z.of_nat n)%Z -> w j = v j) ->
+  near (k ^ n * e0) (limit w) (limit v).
 Proof.
-  intros H. apply X_near. intros m M. apply near_sym, X_near. intros m' M'. apply near_sym, approx_near; auto.
+  intros A A' H. apply limit_near; auto. intros m M. apply near_sym, limit_near; auto.
+  intros m' M'. apply near_sym, approx_near; auto.
 Qed.
 
-Lemma X_V w : V (w 0%Z) (X w).
+Lemma limit_box w : allowed w -> box (w 0%Z) (limit w).
 Proof.
-  destruct (X_lim w) as [L1 L2]. unfold rectangle, In_.
-  assert (H : forall n, V (w 0%Z) (approx n w)) by (intros; apply approx_V). unfold rectangle, In_ in H.
+  intros A. destruct (limit_is w A) as [L1 L2].
   assert (C : forall (f : nat -> R) (l a b : R), is_lim_seq f l -> (forall n, a <= f n <= b) -> a <= l <= b).
   { intros f l a b L Hf. split.
     - apply (is_lim_seq_le (fun _ => a) f a l); auto using is_lim_seq_const. apply Hf.
     - apply (is_lim_seq_le f (fun _ => b) l b); auto using is_lim_seq_const. apply Hf. }
-  split; [destruct (w 0%Z)|]; (eapply C; [eassumption|apply H]).
+  split; (eapply C; [eassumption|intros n; apply (approx_box n w A)]).
 Qed.
 
 Lemma same z z' : (forall n, near (k ^ n * e0) z z') -> z = z'.
@@ -219,110 +258,143 @@ Proof.
   destruct z, z'. f_equal; apply D; intros n; destruct (H n); auto.
 Qed.
 
-(* An orbit is at the limit of its history. *)
-Lemma orbit_from w u n : orbit w u -> orbit (from n w) (fun j => u (n + j)%Z).
-Proof. intros H j. unfold from. destruct (H (n + j)%Z) as [Hv Hn]. split; auto. rewrite Z.add_assoc. auto. Qed.
+(* An orbit, in coordinates. *)
+Definition tour (w : history) (a : Z -> R * R) : Prop := forall n, box (w n) (a n) /\
+  a (n + 1)%Z = (P (w n) (w (n + 1)%Z) (a n), Q (w n) (w (n + 1)%Z) (a n)).
 
-Lemma orbit_near n : forall w u m, orbit w u -> (n <= m)%nat -> near (k ^ n * e0) (approx m w) (u 0%Z).
+Lemma tour_from w a n : tour w a -> tour (from n w) (fun j => a (n + j)%Z).
+Proof. intros T m. unfold Histories.from. destruct (T (n + m)%Z) as [B E]. rewrite Z.add_assoc. auto. Qed.
+
+Lemma tour_renewed w a : allowed w -> tour w a ->
+  a 0%Z = renewed (w (-1)%Z) (w 0%Z) (w 1%Z) (a (-1)%Z) (a 0%Z) (a 1%Z).
 Proof.
-  induction n as [|n IH]; intros w u m H M.
-  - rewrite pow_O, Rmult_1_l. apply (V_near (w 0%Z)); [apply approx_V|apply H].
-  - destruct m as [|m]; [lia|]. replace (k ^ S n * e0) with (k * (k ^ n * e0)) by (simpl; ring).
-    destruct (IH _ _ m (orbit_from w u 1 H) ltac:(lia)) as [Hx _]. pose proof (IH _ _ m H ltac:(lia)) as Hh.
-    pose proof (IH _ _ m (orbit_from w u (-1) H) ltac:(lia)) as Hb. simpl in Hx, Hb.
-    destruct (H 0%Z) as [V0 N0]. destruct (H (-1)%Z) as [V1 N1]. simpl in N0, N1.
-    apply (N_PQ _ _ _ V0) in N0. apply (N_PQ _ _ _ V1) in N1.
-    apply (step (w 0%Z) (w (-1)%Z) _ _ _ (snd (approx m w)) (snd (u 0%Z)) (approx m (from (-1) w)) (u (-1)%Z)); auto;
-      try apply (V_range _ _ (approx_V _ _)); try apply (V_range _ _ V0); try apply Hh; try apply (approx_V (S m)).
-    + apply (approx_V m (from (-1) w)).
-    + destruct (solve_spec (w 0%Z) (fst (approx m (from 1 w))) (snd (approx m w))) as [_ E1];
-        try apply (V_range _ _ (approx_V _ _)).
-      simpl. rewrite E1, <- surjective_pairing. rewrite N0 in Hx. exact Hx.
-    + rewrite N1. reflexivity.
+  intros A T. destruct (T (-1)%Z) as [B E], (T 0%Z) as [B' E'], (arrows w A) as [A1 A2]. simpl in E, E'.
+  unfold renewed. rewrite (solve_unique (w 0%Z) (w 1%Z) (fst (a 0%Z))); auto; try apply B';
+    [|rewrite E', <- surjective_pairing; reflexivity].
+  rewrite (solve_unique (w (-1)%Z) (w 0%Z) (fst (a (-1)%Z))); auto; try apply B;
+    [|rewrite E, <- surjective_pairing; reflexivity].
+  rewrite <- (surjective_pairing (a (-1)%Z)), E. reflexivity.
 Qed.
 
-Lemma orbit_X w u : orbit w u -> forall n, u n = X (from n w).
+Lemma tour_near n : forall w a m, allowed w -> tour w a -> (n <= m)%nat -> near (k ^ n * e0) (approx m w) (a 0%Z).
 Proof.
-  intros H n. pose proof (orbit_from w u n H) as G. symmetry.
-  replace (u n) with (u (n + 0)%Z) by (f_equal; lia). apply same. intros j. apply X_near. intros m M.
-  apply (orbit_near j _ _ m G M).
+  induction n as [|n IH]; intros w a m A T M.
+  - rewrite pow_O, Rmult_1_l. apply (box_near (w 0%Z)); [apply approx_box, A|apply T].
+  - destruct m as [|m]; [lia|]. replace (k ^ S n * e0) with (k * (k ^ n * e0)) by (simpl; ring).
+    rewrite (tour_renewed w a A T). cbn [approx]. destruct (arrows w A).
+    pose proof (fun d => allowed_from d w A) as F. apply renewed_near; auto; try apply T; try (apply approx_box; auto; fail).
+    + apply (approx_box m (from (-1) w)), F.
+    + apply (approx_box m (from 1 w)), F.
+    + apply (IH _ _ m (F (-1)%Z) (tour_from w a (-1) T)). lia.
+    + apply (IH _ _ m A T). lia.
+    + apply (IH _ _ m (F 1%Z) (tour_from w a 1 T)). lia.
+Qed.
+
+Lemma tour_limit w a : allowed w -> tour w a -> forall n, a n = limit (from n w).
+Proof.
+  intros A T n. symmetry. replace (a n) with (a (n + 0)%Z) by (f_equal; lia).
+  apply same. intros j. apply limit_near; [apply allowed_from, A|]. intros m M.
+  apply (tour_near j _ _ m (allowed_from n w A) (tour_from w a n T) M).
 Qed.
 
 Lemma from_from a b w : from a (from b w) = from (b + a) w.
-Proof. apply functional_extensionality. intros j. unfold from. f_equal. lia. Qed.
+Proof. apply functional_extensionality. intros j. unfold Histories.from. f_equal. lia. Qed.
 
 Lemma from_0 w : from 0 w = w.
 Proof. apply functional_extensionality. intros j. reflexivity. Qed.
 
-(* The limit is a fixed point. *)
-Lemma X_fixed w : X w = (solve (w 0%Z) (fst (X (from 1 w))) (snd (X w)), Q (X (from (-1) w))).
+(* The limit is a fixed point, so that it runs on. *)
+Lemma limit_renewed w : allowed w ->
+  limit w = renewed (w (-1)%Z) (w 0%Z) (w 1%Z) (limit (from (-1) w)) (limit w) (limit (from 1 w)).
 Proof.
-  set (z := (_, _)). pose proof (X_V (from 1 w)) as V1. pose proof (X_V w) as V0.
-  pose proof (X_V (from (-1) w)) as Vb. apply V_range in V1. destruct (V_range _ _ V0) as [_ G0].
-  destruct (solve_spec (w 0%Z) (fst (X (from 1 w))) (snd (X w))) as [S1 S2]; try tauto.
-  assert (Vz : V (w 0%Z) z) by (split; [exact S1|apply (into _ _ Vb)]).
+  intros A. pose proof (fun d => allowed_from d w A) as F. destruct (arrows w A) as [A1 A2].
+  pose proof (limit_box (from (-1) w) (F (-1)%Z)) as Bb. pose proof (limit_box w A) as B0.
+  pose proof (limit_box (from 1 w) (F 1%Z)) as B1.
   apply same. intros [|n].
-  - rewrite pow_O, Rmult_1_l. apply (V_near (w 0%Z)); auto.
-  - replace (k ^ S n * e0) with (k * (k ^ n * e0)) by (simpl; ring).
-    replace (k * (k ^ n * e0)) with (k ^ S n * e0) by (simpl; ring).
-    apply X_near. intros [|m] M; [lia|].
-    replace (k ^ S n * e0) with (k * (k ^ n * e0)) by (simpl; ring).
-    assert (H : forall v, near (k ^ n * e0) (approx m v) (X v)).
-    { intros v. apply near_sym, X_near. intros m' M'. apply approx_near; auto; lia. }
-    apply (step (w 0%Z) _ _ _ _ (snd (approx m w)) (snd (X w)) (approx m (from (-1) w)) (X (from (-1) w))
-      (approx_V (S m) w) Vz (approx_V m (from (-1) w)) Vb); auto;
-      try apply (V_range _ _ (approx_V _ _)); try apply H.
-    destruct (solve_spec (w 0%Z) (fst (approx m (from 1 w))) (snd (approx m w))) as [_ E1];
-      try apply (V_range _ _ (approx_V _ _)).
-    unfold z. cbn [fst approx]. rewrite E1, S2. apply (H (from 1 w)).
+  - rewrite pow_O, Rmult_1_l. apply (box_near (w 0%Z)); auto. apply renewed_box; auto.
+  - apply limit_near; auto. intros [|m] M; [lia|]. replace (k ^ S n * e0) with (k * (k ^ n * e0)) by (simpl; ring).
+    assert (H : forall v, allowed v -> near (k ^ n * e0) (approx m v) (limit v)).
+    { intros v Av. apply near_sym, limit_near; auto. intros m' M'. apply approx_near; auto; lia. }
+    cbn [approx]. apply renewed_near; auto.
+    + apply (approx_box m (from (-1) w)), F.
+    + apply approx_box, A.
+    + apply (approx_box m (from 1 w)), F.
 Qed.
 
-Lemma X_N w : N (X w) (X (from 1 w)).
+Lemma limit_tour w : allowed w -> tour w (fun n => limit (from n w)).
 Proof.
-  apply (N_PQ (w 0%Z)); [apply X_V|]. rewrite (surjective_pairing (X (from 1 w))). f_equal.
-  - destruct (solve_spec (w 0%Z) (fst (X (from 1 w))) (snd (X w))) as [_ E].
-    + apply (V_range _ _ (X_V (from 1 w))).
-    + apply (V_range _ _ (X_V w)).
-    + pose proof (f_equal fst (X_fixed w)) as F. cbn [fst] in F.
-      rewrite <- F, <- surjective_pairing in E. symmetry. exact E.
-  - rewrite (X_fixed (from 1 w)). cbn [snd]. rewrite from_from. change (1 + -1)%Z with 0%Z.
-    rewrite from_0. reflexivity.
-Qed.
-
-Lemma X_orbit w : orbit w (fun n => X (from n w)).
-Proof.
+  intros A.
+  assert (Runs : forall v, allowed v -> P (v 0%Z) (v 1%Z) (limit v) = fst (limit (from 1 v))).
+  { intros v Av. destruct (arrows v Av) as [_ A2]. pose proof (limit_box _ (allowed_from 1 v Av)) as [B1 _].
+    pose proof (limit_box v Av) as [_ B0]. destruct (solve_spec (v 0%Z) (v 1%Z) _ _ A2 B1 B0) as [_ E].
+    pose proof (f_equal fst (limit_renewed v Av)) as G. cbn [fst renewed] in G.
+    rewrite <- G, <- surjective_pairing in E. exact E. }
+  assert (Step : forall v, allowed v -> limit (from 1 v) = (P (v 0%Z) (v 1%Z) (limit v), Q (v 0%Z) (v 1%Z) (limit v))).
+  { intros v Av. rewrite (Runs v Av), (surjective_pairing (limit (from 1 v))) at 1. f_equal.
+    pose proof (f_equal snd (limit_renewed _ (allowed_from 1 v Av))) as G. cbn [snd renewed] in G.
+    rewrite from_from in G. change (1 + -1)%Z with 0%Z in G. rewrite from_0 in G. rewrite G.
+    change (Q (v 0%Z) (v 1%Z) (solve (v 0%Z) (v 1%Z) (fst (limit (from 1 v))) (snd (limit v)), snd (limit v)) =
+      Q (v 0%Z) (v 1%Z) (limit v)).
+    destruct (arrows v Av) as [_ A2]. pose proof (limit_box v Av) as [Bx By].
+    rewrite (solve_unique (v 0%Z) (v 1%Z) (fst (limit v))); auto; rewrite <- surjective_pairing; auto. }
   intros n. split.
-  - pose proof (X_V (from n w)) as H. unfold from at 1 in H. rewrite Z.add_0_r in H. exact H.
-  - pose proof (X_N (from n w)) as H. rewrite from_from in H. exact H.
+  - pose proof (limit_box _ (allowed_from n w A)) as B. unfold Histories.from at 1 in B. rewrite Z.add_0_r in B. exact B.
+  - pose proof (Step _ (allowed_from n w A)) as G. rewrite from_from in G. unfold Histories.from at 2 3 5 6 in G.
+    rewrite Z.add_0_r in G. exact G.
 Qed.
 
-Lemma disjoint i j z : V i z -> V j z -> i = j.
-Proof. intros [H _] [H' _]. unfold In_ in H, H'. destruct i, j; auto; lra. Qed.
+(* Orbits and their coordinates. *)
+Lemma chart_coordinates i z : boxed i z -> box i (coordinates i z) /\ chart i (coordinates i z) = z.
+Proof. intros Z. apply boxes in Z. destruct Z as (a & B & ->). rewrite charted. auto. Qed.
 
-Lemma X_injective w w' : X w = X w' <-> forall n, w n = w' n.
+Lemma orbit_tour w u : allowed w -> orbit w u -> tour w (fun n => coordinates (w n) (u n)).
 Proof.
-  split; [|intros H; f_equal; apply functional_extensionality, H]. intros E.
-  assert (All : forall n, X (from n w) = X (from n w')).
-  { assert (Z0 : X (from 0 w) = X (from 0 w')) by (rewrite !from_0; exact E).
-    assert (Up : forall n, X (from (Z.of_nat n) w) = X (from (Z.of_nat n) w')).
-    { induction n as [|n IH]; [exact Z0|]. replace (Z.of_nat (S n)) with (Z.of_nat n + 1)%Z by lia.
-      destruct (X_orbit w (Z.of_nat n)) as [V1 N1], (X_orbit w' (Z.of_nat n)) as [V2 N2].
-      apply (N_PQ _ _ _ V1) in N1. apply (N_PQ _ _ _ V2) in N2. rewrite N1, N2, IH. reflexivity. }
-    assert (Down : forall n, X (from (- Z.of_nat n) w) = X (from (- Z.of_nat n) w')).
-    { induction n as [|n IH]; [exact Z0|].
-      destruct (X_orbit w (- Z.of_nat (S n))%Z) as [V1 N1], (X_orbit w' (- Z.of_nat (S n))%Z) as [V2 N2].
-      replace (- Z.of_nat (S n) + 1)%Z with (- Z.of_nat n)%Z in N1, N2 by lia. rewrite <- IH in N2.
-      apply (back _ _ _ _ _ V1 V2 N1 N2). }
-    intros n. destruct (Z_le_gt_dec 0 n).
-    - rewrite <- (Z2Nat.id n) by auto. apply Up.
-    - replace n with (- Z.of_nat (Z.to_nat (- n)))%Z by lia. apply Down. }
-  intros n. destruct (X_orbit w n) as [V1 _], (X_orbit w' n) as [V2 _]. rewrite <- All in V2.
-  apply (disjoint _ _ _ V1 V2).
+  intros A O n. destruct (O n) as [B M], (O (n + 1)%Z) as [B' _].
+  destruct (chart_coordinates _ _ B) as [C E], (chart_coordinates _ _ B') as [C' E']. split; auto.
+  apply N_PQ; auto. rewrite E, E'. exact M.
 Qed.
 
-Theorem crossed_theorem : two_sided_shift N A b0 a1 B g0 g1 c k e0.
+Definition X (w : history) : R * R := chart (w 0%Z) (limit w).
+
+Lemma X_at n w : X (from n w) = chart (w n) (limit (from n w)).
+Proof. unfold X. unfold Histories.from at 1. rewrite Z.add_0_r. reflexivity. Qed.
+
+Lemma orbit_X w u : allowed w -> (orbit w u <-> forall n, u n = X (from n w)).
 Proof.
-  exists X. split; [|split; [apply X_N|split; [apply X_injective|intros n w w'; apply X_close]]].
-  intros w u. split; [apply orbit_X|]. intros H n. rewrite (H n), (H (n + 1)%Z). apply (X_orbit w n).
+  intros A. split.
+  - intros O n. destruct (O n) as [B _]. destruct (chart_coordinates _ _ B) as [_ E].
+    rewrite X_at, <- (tour_limit w _ A (orbit_tour w u A O) n), E. reflexivity.
+  - intros E n. pose proof (limit_tour w A) as T. destruct (T n) as [B F], (T (n + 1)%Z) as [B' _].
+    rewrite !E, !X_at. split; [apply boxes; exists (limit (from n w)); auto|]. apply N_PQ; auto.
+Qed.
+
+Theorem crossed_theorem : followed_once letter arrow boxed N k.
+Proof.
+  split; [lra|]. exists X, (largest * e0). split; [apply orbit_X|split; [|split]].
+  - intros w u m A O E. rewrite orbit_X in O by auto. intros n. rewrite !O.
+    replace (from (m + n) w) with (from n w); auto. apply functional_extensionality. intros j.
+    unfold Histories.from. rewrite <- (E (n + j)%Z). f_equal. lia.
+  - intros w v u A A' O O' n. apply (disjoint _ _ _ _ (u n) (A n) (A' n)); [apply O|apply O'].
+  - intros n w v A A' H. unfold X. rewrite <- (H 0%Z) by lia.
+    replace (k ^ n * (largest * e0)) with (largest * (k ^ n * e0)) by ring.
+    apply chart_near, limit_close; auto.
+Qed.
+
+(* Where no two states of the boxes have one image in them, a point knows its past. *)
+Theorem known_past : (forall i j z z' y, boxed i z -> boxed j z' -> N z y -> N z' y -> z = z') ->
+  (forall i z y y', boxed i z -> N z y -> N z y' -> y = y') -> one_to_one letter boxed N.
+Proof.
+  intros Back Det w v u t O O' E.
+  assert (Up : forall n, u (Z.of_nat n) = t (Z.of_nat n)).
+  { induction n as [|n IH]; [exact E|]. replace (Z.of_nat (S n)) with (Z.of_nat n + 1)%Z by lia.
+    destruct (O (Z.of_nat n)) as [B M], (O' (Z.of_nat n)) as [_ M']. rewrite <- IH in M'. apply (Det _ _ _ _ B M M'). }
+  assert (Down : forall n, u (- Z.of_nat n)%Z = t (- Z.of_nat n)%Z).
+  { induction n as [|n IH]; [exact E|].
+    destruct (O (- Z.of_nat (S n))%Z) as [B M], (O' (- Z.of_nat (S n))%Z) as [B' M'].
+    replace (- Z.of_nat (S n) + 1)%Z with (- Z.of_nat n)%Z in M, M' by lia. rewrite <- IH in M'.
+    apply (Back _ _ _ _ _ B B' M M'). }
+  intros n. destruct (Z_le_gt_dec 0 n).
+  - rewrite <- (Z2Nat.id n) by auto. apply Up.
+  - replace n with (- Z.of_nat (Z.to_nat (- n)))%Z by lia. apply Down.
 Qed.
 End Crossed.

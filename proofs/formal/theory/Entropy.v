@@ -1,5 +1,5 @@
 (* The number of paths of a graph, and the entropy of a map that follows them. No numbers. *)
-From Coq Require Import Reals ZArith Psatz Lia List.
+From Coq Require Import Reals ZArith Psatz Lia List Bool.
 From Oscillator Require Import Graph Paths.
 Import ListNotations.
 Open Scope R_scope.
@@ -106,19 +106,23 @@ Qed.
 End Words.
 
 Section Followed.
-Variable f : R -> R.
-Variable cells : list (R * R).
+Context {T : Type}.
+Variable distance : T -> T -> R.
+Hypothesis distance_0 : forall x, distance x x = 0.
+Hypothesis distance_sym : forall x y, distance x y = distance y x.
+Variable f : T -> T.
+Variable cell : nat -> T -> Prop.
 Variable arrows : list (nat * nat).
 Notation arrow i j := (In (i, j) arrows).
 Notation path := (path arrows).
-Notation follows := (follows f cells).
+Notation follows := (follows f cell).
 Hypothesis once : NoDup arrows.
 Hypothesis no_end : forall i j, arrow i j -> exists k, arrow j k.
 Hypothesis followed : forall w, path w -> exists x, follows w x.
 Variable delta : R.
 Hypothesis delta_pos : 0 < delta.
-Hypothesis apart : forall i i' j j' x y, arrow i i' -> arrow j j' -> cell cells i x -> cell cells j y -> i <> j ->
-  delta <= Rabs (x - y).
+Hypothesis apart : forall i i' j j' x y, arrow i i' -> arrow j j' -> cell i x -> cell j y -> i <> j ->
+  delta <= distance x y.
 
 (* A word, and then always the first arrow. *)
 Definition onward (i : nat) : nat := hd 0%nat (successors arrows i).
@@ -154,7 +158,7 @@ Qed.
 
 (* As many points as words, any two apart before the words end. *)
 Lemma two_words n l l' x y : length l = S n -> length l' = S n -> l <> l' -> path (extend l) -> path (extend l') ->
-  follows (extend l) x -> follows (extend l') y -> exists k, (k <= n)%nat /\ delta <= Rabs (iter f k x - iter f k y).
+  follows (extend l) x -> follows (extend l') y -> exists k, (k <= n)%nat /\ delta <= distance (iter f k x) (iter f k y).
 Proof.
   intros L L' N P P' X Y. apply Classical_Prop.NNPP. intros No. apply N.
   apply (nth_ext _ _ 0%nat 0%nat); [congruence|]. intros k B. rewrite <- !extend_nth by congruence.
@@ -165,7 +169,7 @@ Qed.
 Lemma points n ws : NoDup ws -> (forall l, In l ws -> length l = S n /\ word_path arrows l /\ exists j, arrow (nth 0 l 0%nat) j) ->
   exists xs, NoDup xs /\ length xs = length ws /\
     (forall x, In x xs -> exists l, In l ws /\ path (extend l) /\ follows (extend l) x) /\
-    forall x y, In x xs -> In y xs -> x <> y -> exists k, (k <= n)%nat /\ delta <= Rabs (iter f k x - iter f k y).
+    forall x y, In x xs -> In y xs -> x <> y -> exists k, (k <= n)%nat /\ delta <= distance (iter f k x) (iter f k y).
 Proof.
   intros D H. induction D as [|l ws Nl D IH].
   { exists []. repeat split; [constructor|intros x []|intros x y []]. }
@@ -173,31 +177,31 @@ Proof.
   destruct (H l (or_introl eq_refl)) as (Ll & P & A).
   assert (Pl : path (extend l)) by (apply extend_path; auto; destruct l; discriminate).
   destruct (followed _ Pl) as (x & Fx).
-  assert (New : forall y, In y xs -> exists k, (k <= n)%nat /\ delta <= Rabs (iter f k x - iter f k y)).
+  assert (New : forall y, In y xs -> exists k, (k <= n)%nat /\ delta <= distance (iter f k x) (iter f k y)).
   { intros y Y. destruct (Hx y Y) as (l' & I' & P' & F'). apply (two_words n l l'); auto; [|congruence].
     apply H. right. auto. }
   exists (x :: xs). split; [|split; [simpl; congruence|split]].
-  - constructor; auto. intros I. destruct (New x I) as (k & _ & B). rewrite Rminus_eq_0, Rabs_R0 in B. lra.
+  - constructor; auto. intros I. destruct (New x I) as (k & _ & B). rewrite distance_0 in B. lra.
   - intros y [<-|I]; [exists l; split; [left|]; auto|].
     destruct (Hx y I) as (l' & I' & Q). exists l'. split; [right|]; auto.
   - intros y z [<-|Y] [<-|Z] N; [congruence|auto| |auto].
-    destruct (New y Y) as (k & B & C). exists k. rewrite Rabs_minus_sym. auto.
+    destruct (New y Y) as (k & B & C). exists k. rewrite distance_sym. auto.
 Qed.
 
 (* The entropy, from a vector v <= top with A^p v >= m v, A the matrix of the graph. *)
 Theorem entropy_theorem v p m top i j : (0 <= m)%Z -> (forall i, (m * v i <= weight arrows v p i)%Z) ->
-  (forall i, (0 <= v i <= top)%Z) -> (0 < v i)%Z -> arrow i j -> entropy_at_least f cells arrows p m.
+  (forall i, (0 <= v i <= top)%Z) -> (0 < v i)%Z -> arrow i j -> entropy_at_least distance f cell arrows p m.
 Proof.
-  intros M G T V A. exists (IZR (v i) / IZR top), delta.
+  intros M G Top V A. exists (IZR (v i) / IZR top), delta.
   assert (V0 : 0 < IZR (v i)) by (apply IZR_lt, V).
-  assert (T0 : 0 < IZR top) by (apply IZR_lt; specialize (T i); lia).
+  assert (T0 : 0 < IZR top) by (apply IZR_lt; specialize (Top i); lia).
   split; [apply Rdiv_lt_0_compat; auto|split; [auto|]]. intros q.
   destruct (points (q * p) (words arrows v (q * p) i)) as (xs & D & L & F & S).
   - apply NoDup_words, once.
   - intros l I. destruct (words_are _ _ _ _ _ I) as (Ll & Z & P). rewrite Z. eauto.
   - exists xs. split; [auto|split; [|split]].
     + intros x I. destruct (F x I) as (l & _ & P & X). exists (extend l). auto.
-    + pose proof (growth arrows v p m M G q i) as W. pose proof (count_words arrows v top T (q * p) i) as C.
+    + pose proof (growth arrows v p m M G q i) as W. pose proof (count_words arrows v top Top (q * p) i) as C.
       rewrite L, INR_IZR_INZ, pow_IZR.
       assert (B : (m ^ Z.of_nat q * v i <= top * Z.of_nat (length (words arrows v (q * p) i)))%Z) by lia.
       apply IZR_le in B. rewrite !mult_IZR in B. apply Rmult_le_reg_l with (IZR top); auto.
@@ -206,3 +210,70 @@ Proof.
     + intros x y X Y N. rewrite (Nat.mul_comm p). apply S; auto.
 Qed.
 End Followed.
+
+(* A^p v >= g v for the matrix A of the graph of `size` sets, in whole numbers. *)
+Section Growing.
+Variable arrows : list (nat * nat).
+Variable size : nat.
+Hypothesis numbers : forall i j, In (i, j) arrows -> (i < size)%nat /\ (j < size)%nat.
+Variable v : list Z.
+Variable p : nat.
+Variable g : Z.
+Definition step (u : list Z) : list Z :=
+  map (fun i => total (map (fun j => nth j u 0%Z) (successors arrows i))) (seq 0 size).
+Fixpoint distinct (l : list (nat * nat)) : bool :=
+  match l with
+  | [] => true
+  | a :: t => negb (existsb (fun b => (fst a =? fst b)%nat && (snd a =? snd b)%nat) t) && distinct t
+  end.
+Definition growing : bool :=
+  (length v =? size)%nat && (0 <=? g)%Z && forallb (Z.leb 0) v && distinct arrows &&
+  forallb (fun a => existsb (fun b => (fst b =? snd a)%nat) arrows) arrows &&
+  forallb (fun ab => (g * fst ab <=? snd ab)%Z) (combine v (Nat.iter p step v)) &&
+  existsb (fun a => (0 <? nth (fst a) v 0)%Z) arrows.
+
+Lemma distinct_NoDup l : distinct l = true -> NoDup l.
+Proof.
+  induction l as [|[a b] t IH]; intros H; constructor; simpl in H; apply andb_true_iff in H; destruct H as [H D]; auto.
+  intros I. apply negb_true_iff, not_true_iff_false in H. apply H, existsb_exists. exists (a, b).
+  rewrite !Nat.eqb_refl. auto.
+Qed.
+
+Lemma step_weight k : length v = size -> length (Nat.iter k step v) = size /\
+  forall i, (i < size)%nat -> nth i (Nat.iter k step v) 0%Z = weight arrows (fun j => nth j v 0%Z) k i.
+Proof.
+  intros L. induction k as [|k [IL IH]]; simpl; [auto|]. unfold step at 1 3. rewrite map_length, seq_length. split; auto.
+  intros i Hi. rewrite (nth_indep _ 0%Z (total (map (fun j => nth j (Nat.iter k step v) 0%Z) (successors arrows 0))))
+    by (rewrite map_length, seq_length; auto).
+  rewrite (map_nth (fun i => total (map (fun j => nth j (Nat.iter k step v) 0%Z) (successors arrows i)))).
+  rewrite seq_nth by auto. simpl. f_equal. apply map_ext_in. intros j J. apply IH.
+  apply successor in J. apply (numbers i j J).
+Qed.
+
+Theorem growth_theorem {T} (distance : T -> T -> R) f cell delta : (forall x, distance x x = 0) ->
+  (forall x y, distance x y = distance y x) -> (forall w, path arrows w -> exists x, follows f cell w x) -> 0 < delta ->
+  (forall i i' j j' x y, In (i, i') arrows -> In (j, j') arrows -> cell i x -> cell j y -> i <> j -> delta <= distance x y) ->
+  growing = true -> entropy_at_least distance f cell arrows p g.
+Proof.
+  intros Zero Sym Fol Pos Apart. unfold growing. rewrite !andb_true_iff. intros [[[[[[L g0] P] D] N] W] E].
+  apply Nat.eqb_eq in L. apply Z.leb_le in g0. apply existsb_exists in E. destruct E as ([i j] & A & V). apply Z.ltb_lt in V.
+  rewrite forallb_forall in P, N, W.
+  assert (P' : forall i, (0 <= nth i v 0)%Z).
+  { intros k. destruct (Nat.lt_ge_cases k (length v)) as [K|K]; [apply Z.leb_le, P, nth_In, K|rewrite nth_overflow; lia]. }
+  apply (entropy_theorem distance Zero Sym f cell arrows) with (delta := delta) (v := fun j => nth j v 0%Z) (top := total v) (i := i) (j := j); auto.
+  - apply distinct_NoDup, D.
+  - intros a b B. specialize (N _ B). apply existsb_exists in N. destruct N as ([c k] & C & Q). apply Nat.eqb_eq in Q.
+    simpl in Q. subst c. eauto.
+  - intros k. destruct (Nat.lt_ge_cases k size) as [K|K].
+    + destruct (step_weight p L) as [SL SW]. rewrite <- (SW k K).
+      specialize (W (nth k v 0%Z, nth k (Nat.iter p step v) 0%Z)). apply Z.leb_le, W.
+      rewrite <- combine_nth by congruence. apply nth_In. rewrite combine_length. lia.
+    + rewrite nth_overflow by lia. rewrite Z.mul_0_r.
+      assert (Q : forall q k, (0 <= weight arrows (fun j => nth j v 0%Z) q k)%Z); [|apply Q].
+      induction q as [|q IH]; intros a; simpl; [apply P'|]. induction (successors arrows a) as [|b l IHl]; simpl; [lia|].
+      specialize (IH b). lia.
+  - intros k. split; [apply P'|]. clear - P'. revert k. induction v as [|a l IH]; intros k; [destruct k; simpl; lia|].
+    assert (Pl : forall i, (0 <= nth i l 0)%Z) by (intros q; apply (P' (S q))). pose proof (P' 0%nat) as P0. simpl in P0.
+    destruct k as [|k]; simpl; [|specialize (IH Pl k); lia]. specialize (IH Pl (length l)). rewrite nth_overflow in IH; lia.
+Qed.
+End Growing.

@@ -3,7 +3,7 @@
 From Coq Require Import Reals ZArith Psatz Lia List Bool.
 From Coquelicot Require Import Coquelicot.
 From Interval Require Import Float_full Interval Xreal.
-From Oscillator Require Import Impact Restitution Flight Corrected Numbers March Graph Paths Cells.
+From Oscillator Require Import Impact Restitution Flight Corrected Numbers March Graph Paths Entropy Cells.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -233,12 +233,12 @@ Proof.
 Qed.
 
 (* Each phase of an interval from which an arrow goes has a next impact, at phase f. *)
-Theorem flights_land i j x : In (i, j) arrows -> cell cells i x -> next x (f x).
+Theorem flights_land i j x : In (i, j) arrows -> interval cells i x -> next x (f x).
 Proof.
   intros A X. apply (flies_there i x (source arrows i j A)), (cell_within unit ends arrows (proj1 checks) i j x A X).
 Qed.
 
-Theorem flights_growth v p g : growing ends arrows v p g = true -> entropy_at_least f cells arrows p g.
+Theorem flights_growth v p g : growing arrows (length ends) v p g = true -> entropy_at_least on_line f (interval cells) arrows p g.
 Proof. apply cells_growth; [apply checks|apply continuous_there|apply covers_along]. Qed.
 End Flights.
 Arguments chain {T}.

@@ -1,6 +1,6 @@
 (* Enclosures by the intervals of coq-interval, in Coq's own integers: of sums and products, and of
    numbers n / unit. *)
-From Coq Require Import Reals ZArith Psatz.
+From Coq Require Import Reals ZArith Psatz Bool.
 From Interval Require Import Specific_stdz Specific_ops Float_full Interval Xreal.
 Open Scope R_scope.
 
@@ -77,6 +77,13 @@ Lemma at_most_holds V v n : holds V v -> at_most V n = true -> v <= ratio n.
 Proof. intros H U. pose proof (not_negative_holds _ _ (sub_holds _ _ _ _ (number_holds n) H) U). lra. Qed.
 Lemma at_least_holds V v n : holds V v -> at_least V n = true -> ratio n <= v.
 Proof. intros H U. pose proof (not_negative_holds _ _ (sub_holds _ _ _ _ H (number_holds n)) U). lra. Qed.
+Definition small (V : I.type) (n : Z) : bool := at_most V n && at_least V (- n).
+Lemma small_holds V v n : holds V v -> small V n = true -> Rabs v <= ratio n.
+Proof.
+  unfold small. rewrite andb_true_iff. intros H [U L]. apply (at_most_holds _ _ _ H) in U. apply (at_least_holds _ _ _ H) in L.
+  apply Rabs_le. unfold ratio in *. rewrite opp_IZR in L. split; [|exact U].
+  replace (- (IZR n / IZR (Zpos unit))) with (- IZR n / IZR (Zpos unit)) by (field; pose proof unit_pos; lra). exact L.
+Qed.
 End Numbers.
 
 Arguments add_holds {bits}. Arguments sub_holds {bits}. Arguments mul_holds {bits}. Arguments div_holds {bits}.

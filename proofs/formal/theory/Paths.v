@@ -102,9 +102,9 @@ Proof.
   apply in_map, IH, H.
 Qed.
 
-Lemma cells_bounded cells : exists m M, m <= 0 <= M /\ forall i x, cell cells i x -> m <= x <= M.
+Lemma cells_bounded cells : exists m M, m <= 0 <= M /\ forall i x, interval cells i x -> m <= x <= M.
 Proof.
-  unfold Graph.cell. induction cells as [|c l (m & M & O & B)].
+  unfold interval. induction cells as [|c l (m & M & O & B)].
   - exists 0, 0. split; [lra|]. intros [|i] x X; simpl in X; lra.
   - exists (Rmin m (fst c)), (Rmax M (snd c)). pose proof (Rmin_l m (fst c)). pose proof (Rmin_r m (fst c)).
     pose proof (Rmax_l M (snd c)). pose proof (Rmax_r M (snd c)). split; [lra|].
@@ -120,11 +120,11 @@ Qed.
 
 Definition width (cells : list (R * R)) : R := fold_right (fun c s => Rabs (snd c - fst c) + s) 0 cells.
 
-Lemma width_bound cells i x y : cell cells i x -> cell cells i y -> Rabs (x - y) <= width cells.
+Lemma width_bound cells i x y : interval cells i x -> interval cells i y -> Rabs (x - y) <= width cells.
 Proof.
   assert (P : forall l, 0 <= fold_right (fun c s => Rabs (snd c - fst c) + s) 0 l).
   { induction l as [|c l IH]; simpl; [lra|]. pose proof (Rabs_pos (snd c - fst c)). lra. }
-  unfold width, Graph.cell. intros X Y. revert i X Y. induction cells as [|c l IH]; intros i X Y.
+  unfold width, interval. intros X Y. revert i X Y. induction cells as [|c l IH]; intros i X Y.
   - destruct i; simpl in *; replace (x - y) with 0 by lra; rewrite Rabs_R0; lra.
   - destruct i as [|i]; simpl in *; [|pose proof (IH i X Y); pose proof (Rabs_pos (snd c - fst c)); lra].
     specialize (P l). rewrite (Rabs_pos_eq (snd c - fst c)) by lra.
@@ -136,8 +136,8 @@ Variable f : R -> R.
 Variable cells : list (R * R).
 Variable arrows : list (nat * nat).
 Notation iter := (iter f).
-Notation cell := (cell cells).
-Notation K := (K f cells arrows).
+Notation cell := (interval cells).
+Notation K := (K f (interval cells) arrows).
 Definition left (i : nat) : R := fst (nth i cells (0, 0)).
 Definition right (i : nat) : R := snd (nth i cells (0, 0)).
 Definition arrow (i j : nat) : Prop := In (i, j) arrows.
@@ -249,7 +249,7 @@ Hypothesis delta_pos : 0 < delta.
 Hypothesis apart : forall i i' j j' x y, arrow i i' -> arrow j j' -> cell i x -> cell j y -> i <> j ->
   delta <= Rabs (x - y).
 Notation path := (path arrows).
-Notation follows := (follows f cells).
+Notation follows := (follows f (interval cells)).
 
 Lemma same i i' j j' x y : arrow i i' -> arrow j j' -> cell i x -> cell j y -> Rabs (x - y) < delta -> i = j.
 Proof.
@@ -296,7 +296,7 @@ Definition inside (i : nat) (x : R) : bool :=
 
 Lemma inside_cell i x : inside i x = true <-> cell i x.
 Proof.
-  unfold inside, Graph.cell, left, right. destruct Rle_dec; [destruct Rle_dec|]; split; intros; try discriminate; tauto.
+  unfold inside, interval, left, right. destruct Rle_dec; [destruct Rle_dec|]; split; intros; try discriminate; tauto.
 Qed.
 
 Lemma adherent c : (forall e, 0 < e -> exists y, K y /\ Rabs (y - c) < e) ->

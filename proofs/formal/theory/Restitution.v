@@ -1,7 +1,7 @@
 (* From numeric facts on two rectangles to the two-sided shift of the rebounds. No numbers. *)
 From Coq Require Import Reals ZArith Psatz Lia.
 From Coquelicot Require Import Coquelicot.
-From Oscillator Require Import Impact Rebounds Calculus Crossed.
+From Oscillator Require Import Impact Histories Rebounds Calculus Crossed.
 Open Scope R_scope.
 
 Section Model.
@@ -393,9 +393,9 @@ Record rectangle_facts (a x y b d e T u v : R) (k : Z) : Prop := {
 Theorem rebounds a d e T u v k b a' T' u' v' k' b' : eps <> 0 ->
   A < b0 < a1 /\ a1 < B -> B - A < 2 * PI -> g0 < g1 ->
   0 < p /\ 0 <= q /\ 0 <= r /\ 0 <= s /\ 0 < c /\ 0 <= rate < 1 ->
-  1 + q * c <= rate * p -> r + s * c <= rate * c ->
+  1 + q * c <= rate * p -> r * rate + s * c <= rate * c ->
   rectangle_facts a A b0 b d e T u v k -> rectangle_facts a' a1 B b' d e T' u' v' k' ->
-  two_sided_shift rebound A b0 a1 B g0 g1 c rate (e0 A B g0 g1 c).
+  two_sided_shift rebound A b0 a1 B g0 g1 rate.
 Proof.
   intros E0 O W G S R1 R2 F0 F1.
   set (lap (z : R * R) := if Rle_dec (fst z) b0 then k else k').
@@ -408,8 +408,8 @@ Proof.
   assert (First : forall i z, rectangle A b0 a1 B g0 g1 i z -> first (fst z) (snd z) (time (fst z) (snd z))).
   { intros i z [Z1 Z2]. destruct F0 as [I0 Fl0 _ _ _ _ _], F1 as [I1 Fl1 _ _ _ _ _]. unfold In_ in Z1.
     destruct i; [apply (time_first _ _ _ _ _ _ _ Fl1)|apply (time_first _ _ _ _ _ _ _ Fl0)]; lra. }
-  apply (crossed_theorem rebound A b0 a1 B g0 g1 O G P Q) with (p := p) (q := q) (r := r) (s := s); auto.
-  - intros i z z' Vz. pose proof (First i z Vz) as Fz. split.
+  assert (Is : forall i z, rectangle A b0 a1 B g0 g1 i z -> forall z', rebound z z' <-> z' = (P z, Q z)).
+  { intros i z Vz z'. pose proof (First i z Vz) as Fz. split.
     + intros (t & j & Ft & -> & Y). simpl in Y.
       rewrite <- (time_spec _ _ _ Ft) in *. unfold Q. f_equal. unfold P.
       assert (Lz : 0 <= fst z + time (fst z) (snd z) - 2 * PI * IZR (lap z) < 2 * PI).
@@ -423,10 +423,25 @@ Proof.
     + intros ->. exists (time (fst z) (snd z)), (lap z). split; [exact Fz|split; [reflexivity|]]. simpl. unfold P.
       destruct Vz as [Z1 Z2]. unfold In_ in Z1. destruct i.
       * rewrite L1 by lra. apply (rf_lap _ _ _ _ _ _ _ _ _ _ F1); auto.
-      * rewrite L0 by lra. apply (rf_lap _ _ _ _ _ _ _ _ _ _ F0); auto.
-  - intros i j z z' y [Z1 _] [Z2 _]. apply rebound_injective; auto.
-    apply (I_range A b0 a1 B O) in Z1, Z2. apply Rabs_def1; lra.
-  - intros i y g Y Hg. destruct i.
+      * rewrite L0 by lra. apply (rf_lap _ _ _ _ _ _ _ _ _ _ F0); auto. }
+  set (x0 (i : bool) := if i then a1 else A). set (x1 (i : bool) := if i then B else b0).
+  assert (R' : forall i z, rectangle A b0 a1 B g0 g1 i z <-> box bool x0 x1 (fun _ => g0) (fun _ => g1) i z).
+  { intros [|] z; unfold rectangle, In_, box, x0, x1; tauto. }
+  assert (Range : forall i z, rectangle A b0 a1 B g0 g1 i z -> A <= fst z <= B).
+  { intros i z [Z _]. unfold In_ in Z. destruct i; lra. }
+  split.
+  2: { apply known_past.
+    - intros i j z z' y Z1 Z2. apply rebound_injective; auto. apply Range in Z1, Z2. apply Rabs_def1; lra.
+    - intros i z y y' Vz Y Y'. apply (Is i z Vz) in Y, Y'. congruence. }
+  assert (Wd : 0 < (g1 - g0) / c) by (apply Rdiv_lt_0_compat; lra).
+  apply (crossed_theorem bool (fun _ _ => True) x0 x1 (fun _ => g0) (fun _ => g1) (fun _ z => z) (fun _ z => z)) with
+    (P := fun _ _ => P) (Q := fun _ _ => Q) (p := p) (q := q) (r := r) (s := s) (c := c)
+    (e0 := B - A + (g1 - g0) / c) (largest := 1 + c); auto; try lra.
+  - intros i z. rewrite R'. split; [eauto|intros (q' & Hq & ->); auto].
+  - intros [|]; unfold x0, x1; lra.
+  - intros i j z z' _ Z _. apply (Is i z), R', Z.
+  - intros i j y g _ Y Hg. assert (Y' : A <= y <= B) by (destruct j; unfold x0, x1 in Y; lra). clear Y. rename Y' into Y.
+    unfold x0, x1. destruct i.
     + pose proof (rf_left _ _ _ _ _ _ _ _ _ _ F1 g Hg). pose proof (rf_right _ _ _ _ _ _ _ _ _ _ F1 g Hg).
       destruct (line_covers _ _ _ _ _ _ _ (rf_flights _ _ _ _ _ _ _ _ _ _ F1) a1 B g0 g1
         (rf_within _ _ _ _ _ _ _ _ _ _ F1) g (y + 2 * PI * IZR k') Hg ltac:(lra)) as (x & X & E).
@@ -435,9 +450,10 @@ Proof.
       destruct (line_covers _ _ _ _ _ _ _ (rf_flights _ _ _ _ _ _ _ _ _ _ F0) A b0 g0 g1
         (rf_within _ _ _ _ _ _ _ _ _ _ F0) g (y + 2 * PI * IZR k) Hg ltac:(lra)) as (x & X & E).
       exists x. split; [exact X|]. unfold P. rewrite L0 by (simpl; lra). simpl. lra.
-  - intros i z [Z1 Z2]. unfold In_ in Z1. destruct i;
+  - intros i j z _ Vz _. apply R' in Vz. destruct Vz as [Z1 Z2]. unfold In_ in Z1. destruct i;
       [apply (rf_velocity _ _ _ _ _ _ _ _ _ _ F1)|apply (rf_velocity _ _ _ _ _ _ _ _ _ _ F0)]; auto.
-  - intros i z z' [Z1 Z2] [Z1' Z2']. unfold In_ in Z1, Z1'. destruct i.
+  - intros i _ j _ z _ _ [Z1 _] [Z2 _]. unfold In_ in Z1, Z2. destruct i, j; auto; lra.
+  - intros i j z z' _ Vz Vz'. apply R' in Vz, Vz'. destruct Vz as [Z1 Z2], Vz' as [Z1' Z2']. unfold In_ in Z1, Z1'. destruct i.
     + destruct (differences _ _ _ _ _ _ _ (rf_flights _ _ _ _ _ _ _ _ _ _ F1) a1 B g0 g1 p q r s
         (rf_within _ _ _ _ _ _ _ _ _ _ F1) (rf_rates _ _ _ _ _ _ _ _ _ _ F1) ltac:(lra)
         (fst z') (snd z') (fst z) (snd z) Z1' Z1 Z2' Z2) as [[D _] _].
@@ -448,11 +464,15 @@ Proof.
         (fst z') (snd z') (fst z) (snd z) Z1' Z1 Z2' Z2) as [[D _] _].
       unfold P. rewrite !L0 by lra. match goal with |- _ <= Rabs ?f + _ =>
         replace f with (fst z + time (fst z) (snd z) - (fst z' + time (fst z') (snd z'))) by ring end. exact D.
-  - intros i z z' [Z1 Z2] [Z1' Z2']. unfold In_ in Z1, Z1'. destruct i.
+  - intros i j z z' _ Vz Vz'. apply R' in Vz, Vz'. destruct Vz as [Z1 Z2], Vz' as [Z1' Z2']. unfold In_ in Z1, Z1'. destruct i.
     + apply (differences _ _ _ _ _ _ _ (rf_flights _ _ _ _ _ _ _ _ _ _ F1) a1 B g0 g1 p q r s
         (rf_within _ _ _ _ _ _ _ _ _ _ F1) (rf_rates _ _ _ _ _ _ _ _ _ _ F1) ltac:(lra)); auto.
     + apply (differences _ _ _ _ _ _ _ (rf_flights _ _ _ _ _ _ _ _ _ _ F0) A b0 g0 g1 p q r s
         (rf_within _ _ _ _ _ _ _ _ _ _ F0) (rf_rates _ _ _ _ _ _ _ _ _ _ F0) ltac:(lra)); auto.
+  - intros i. assert (c * (B - A + (g1 - g0) / c) = c * (B - A) + (g1 - g0)) as -> by (field; lra).
+    assert (0 < c * (B - A)) by (apply Rmult_lt_0_compat; lra). unfold x0, x1. destruct i; lra.
+  - intros i e1 z z' [N1 N2]. assert (0 <= e1) by (eapply Rle_trans; [apply Rabs_pos|exact N1]).
+    assert (0 <= c * e1) by (apply Rmult_le_pos; lra). lra.
 Qed.
 
 (* Claim N2: two states of a rectangle, their phases lifted: F stretches horizontal distances p

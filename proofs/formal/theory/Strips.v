@@ -137,14 +137,6 @@ Proof.
 Qed.
 End Values.
 
-Definition small (V : I.type) (n : Z) : bool := at_most bits unit V n && at_least bits unit V (- n).
-Lemma small_holds V v n : holds V v -> small V n = true -> Rabs v <= ratio n.
-Proof.
-  unfold small. rewrite andb_true_iff. intros H [U L]. apply (at_most_holds bits unit _ _ _ H) in U. apply (at_least_holds bits unit _ _ _ H) in L.
-  apply Rabs_le. unfold Numbers.ratio in *. rewrite opp_IZR in L. split; [|exact U].
-  replace (- (IZR n / IZR (Zpos unit))) with (- IZR n / IZR (Zpos unit)) by (field; pose proof (unit_pos unit); lra). exact L.
-Qed.
-
 Section Strip.
 Variable s : strip.
 Notation T := (lifted s).
@@ -160,7 +152,7 @@ Definition good_part (c : piece) : bool :=
        (above_zero (level_at a b d e (early c)) && above_zero (I.neg (level_at a b d e (late c))))) &&
       (above_zero (phase_there c k) && above_zero (I.sub prec (turned 1) (phase_there c k))) &&
       (at_most bits unit (gamma_there c) (b_high bound) && at_least bits unit (gamma_there c) (b_low bound)) &&
-      (at_least bits unit (pp c) (b_p bound) && small (pg c) (b_q bound) && small (qp c) (b_r bound) && small (qg c) (b_s bound))
+      (at_least bits unit (pp c) (b_p bound) && small bits unit (pg c) (b_q bound) && small bits unit (qp c) (b_r bound) && small bits unit (qg c) (b_s bound))
   | None => false
   end.
 
@@ -258,29 +250,34 @@ Proof.
     rewrite ratio_add in Ra. lra.
 Qed.
 
-(* A state of the rectangle that falls short: its image is at a phase below its own. *)
-Definition short (x g t : Z) : bool :=
+(* A state of the rectangle that falls short: its image is at a phase below its own, after l. *)
+Definition short (l x g t0 t : Z) : bool :=
   ((left_edge s <=? x)%Z && (x <=? right_edge s)%Z && (b_low bound <=? g)%Z && (g <=? b_high bound)%Z &&
-   (u <=? t)%Z && (t <=? v)%Z) &&
+   (u <=? t0)%Z && (t0 <=? v)%Z && (u <=? t)%Z && (t <=? v)%Z) &&
+  (above_zero (level_at x x g g t0) && above_zero (number (x + t0 - l) [-] turned k)) &&
   (above_zero (I.neg (level_at x x g g t)) && above_zero (turned k [-] number t)).
 
-Theorem falls_short x g t : short x g t = true -> (exists z, rebound (ratio x, ratio g) z) /\
-  forall z, rebound (ratio x, ratio g) z -> fst z < ratio x.
+Theorem falls_short l x g t0 t : short l x g t0 t = true ->
+  (forall phi gamma, ratio (left_edge s) <= phi <= ratio (right_edge s) -> ratio (b_low bound) <= gamma <= ratio (b_high bound) ->
+     0 <= phi + time phi gamma - 2 * PI * IZR k < 2 * PI) /\
+  exists z, rebound (ratio x, ratio g) z /\ ratio l < fst z < ratio x.
 Proof.
-  unfold short. rewrite !andb_true_iff, !Z.leb_le. intros [[[[[[Lx Rx] Lg] Rg] ut] tv] [Neg Sh]].
-  apply (ratio_le unit) in Lx, Rx, Lg, Rg, ut, tv. destruct strip_facts as [W Fl _ _ Lap _ _].
+  unfold short. rewrite !andb_true_iff, !Z.leb_le.
+  intros [[[[[[[[[Lx Rx] Lg] Rg] ut0] t0v] ut] tv] [Po Be]] [Neg Sh]].
+  apply (ratio_le unit) in Lx, Rx, Lg, Rg, ut0, t0v, ut, tv. destruct strip_facts as [W Fl _ _ Lap _ _].
+  apply (above_zero_holds _ _ (level_at_holds x x g g t0 (ratio x) (ratio g) ltac:(lra) ltac:(lra))) in Po.
   apply (above_zero_holds _ _ (neg_holds _ _ (level_at_holds x x g g t (ratio x) (ratio g) ltac:(lra) ltac:(lra)))) in Neg.
+  apply (above_zero_holds _ _ (sub_holds _ _ _ _ (number_holds bits unit _) (turned_holds _))) in Be.
   apply (above_zero_holds _ _ (sub_holds _ _ _ _ (turned_holds _) (number_holds bits unit t))) in Sh.
   pose proof (fl_order _ _ _ _ _ _ _ _ _ _ _ Fl) as Or.
-  assert (Bt : ratio u < time (ratio x) (ratio g) < ratio t).
-  { apply (time_bracket _ _ _ _ E0 _ _ _ _ _ _ _ Fl); try lra. apply (fl_flight _ _ _ _ _ _ _ _ _ _ _ Fl); lra. }
-  specialize (Lap (ratio x) (ratio g) ltac:(lra) ltac:(lra)).
-  destruct (time_first _ _ _ _ E0 _ _ _ _ _ _ _ Fl (ratio x) (ratio g)) as [F0 _]; [lra|lra|]. split.
-  - eexists. exists (time (ratio x) (ratio g)), k. split; [exact F0|split; [reflexivity|exact Lap]].
-  - intros z (r & n & F & -> & Z). cbn [fst snd] in *. rewrite <- (time_spec _ _ _ _ _ _ _ F) in *.
-    pose proof PI_RGT_0. assert (n = k); [|subst; lra].
-    assert (-1 < IZR (n - k) < 1) by (rewrite minus_IZR; split; nra).
-    assert (-1 < n - k < 1)%Z by (split; apply lt_IZR; lra). lia.
+  assert (Bt : ratio t0 < time (ratio x) (ratio g) < ratio t)
+    by (apply (time_bracket _ _ _ _ E0 _ _ _ _ _ _ _ Fl); lra).
+  split; [exact Lap|]. specialize (Lap (ratio x) (ratio g) ltac:(lra) ltac:(lra)).
+  destruct (time_first _ _ _ _ E0 _ _ _ _ _ _ _ Fl (ratio x) (ratio g)) as [F0 _]; [lra|lra|].
+  exists (ratio x + time (ratio x) (ratio g) - 2 * PI * IZR k, arrival (ratio x) (ratio g) (time (ratio x) (ratio g))).
+  split; [exists (time (ratio x) (ratio g)), k; split; [exact F0|split; [reflexivity|exact Lap]]|]. cbn [fst].
+  assert (Sm : ratio (x + t0 - l) = ratio x + ratio t0 - ratio l)
+    by (unfold Numbers.ratio; rewrite minus_IZR, plus_IZR; field; pose proof (unit_pos unit); lra). lra.
 Qed.
 End Strip.
 End Strips.
@@ -321,13 +318,12 @@ Qed.
 
 Theorem strips_horseshoe rate : S' <> 0 -> P' <> 0 -> A < b0 -> a1 < B -> B - A <= 6 -> g0 < g1 ->
   0 < p /\ 0 <= q /\ 0 <= r /\ 0 <= s /\ 0 < c /\ 0 <= rate < 1 ->
-  1 + q * c <= rate * p -> r + s * c <= rate * c ->
-  exists size, two_sided_shift (Rebounds.rebound S' E' N' P') A b0 a1 B g0 g1 c rate size.
+  1 + q * c <= rate * p -> r * rate + s * c <= rate * c ->
+  two_sided_shift (Rebounds.rebound S' E' N' P') A b0 a1 B g0 g1 rate.
 Proof.
   intros S0 P0 O0 O1 W G Po R1 R2. destruct two_facts as (Lt & d & e & (a & b & T & u & v & k & F0) & (a' & b' & T' & u' & v' & k' & F1)).
   assert (E0 : 0 < E') by (destruct parameters as (_ & <- & _); apply eta_real, eta_pos).
-  pose proof PI2_3_2.
-  eexists. eapply rebounds with (p := p) (q := q) (r := r) (s := s);
+  pose proof PI2_3_2. eapply rebounds with (p := p) (q := q) (r := r) (s := s) (c := c);
     first [exact F0 | exact F1 | assumption | lra].
 Qed.
 
@@ -358,12 +354,15 @@ Proof.
     apply Rmult_le_reg_l with (c * p - r); lra.
 Qed.
 
-(* A state of V2 that F takes to a phase below its own. *)
-Theorem strip_falls_short x g t X G : short bits unit side eta nu eps bound s1 x g t = true -> ratio x = X -> ratio g = G ->
-  (exists z, Rebounds.rebound S' E' N' P' (X, G) z) /\ forall z, Rebounds.rebound S' E' N' P' (X, G) z -> fst z < X.
+(* A state of V2 that F takes to a phase below its own, after l; all images of V2 are within one turn. *)
+Theorem strip_falls_short l x g t0 t L X G : short bits unit side eta nu eps bound s1 l x g t0 t = true ->
+  ratio l = L -> ratio x = X -> ratio g = G ->
+  (exists k : Z, forall f g, a1 <= f <= B -> g0 <= g <= g1 -> 0 <= f + time f g - 2 * PI * IZR k < 2 * PI) /\
+  exists z, Rebounds.rebound S' E' N' P' (X, G) z /\ L < fst z < X.
 Proof.
-  intros Sh <- <-. pose proof checked as Ch. unfold check_strips in Ch. rewrite !andb_true_iff in Ch. destruct Ch as [[_ G1] _].
-  destruct parameters as (<- & <- & <- & <-).
-  apply (falls_short bits unit side eta nu eps eta_pos bound s1 _ _ G1 x g t Sh).
+  intros Sh <- <- <-. pose proof checked as Ch. unfold check_strips in Ch. rewrite !andb_true_iff in Ch. destruct Ch as [[_ G1] _].
+  destruct parameters as (<- & <- & <- & <-), edges as (_ & _ & <- & <-), velocities as (<- & <-).
+  destruct (falls_short bits unit side eta nu eps eta_pos bound s1 _ _ G1 l x g t0 t Sh) as [La Ex].
+  split; [eexists; exact La|exact Ex].
 Qed.
 End Two.

@@ -5,7 +5,7 @@ import re
 import shutil
 import subprocess
 from contextlib import redirect_stdout
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
 import pytest
@@ -111,8 +111,7 @@ def one(pattern, change, place=0):
     return edit
 
 
-def asking(pattern, change):
-    return one(pattern, change, place=1)
+asking = partial(one, place=1)
 
 
 def printed_by_coq(folder, *commands):

@@ -1,10 +1,14 @@
 """Flights as data for Coq: the enclosures by which they are cut, and data that is not right."""
 
+import math
+import random
 import re
 from fractions import Fraction
 from functools import partial
+from itertools import product
 
 import mpmath
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -121,6 +125,101 @@ LIES = {
         FIRST_CUT, lambda m: f"(Cut ({m[1]}) ({m[2]}) [{m[3]}; ((-1)%Z, 1%nat)] [{m[4]}] [{m[5]}])"
     ),
 }
+
+
+def image(eta, nu, phi):
+    """The phase of the next impact, not reduced, from samples of the gap; None if none is seen."""
+    times = np.arange(0.02, 70, 0.01)
+    gaps = np.sign(nu) * (
+        (1 + nu * math.sin(phi)) * np.cos(eta * times)
+        + nu / eta * math.cos(phi) * np.sin(eta * times)
+        - 1
+        - nu * np.sin(phi + times)
+    )
+    below = np.flatnonzero(gaps <= 0)
+    return None if len(below) == 0 or below[0] == 0 else phi + times[below[0]]
+
+
+def is_false(side, eta, nu, slope, cells, arrows):
+    """Whether a claim fails, by a margin: a sign, an order, an arrow, a covering or a slope."""
+    ordered = [end for cell in cells for end in cell]
+    if side * nu < 0 or ordered != sorted(set(ordered)):
+        return True
+    for i, j in arrows:
+        if max(i, j) >= len(cells):
+            return True
+        ends = [image(eta, nu, end) for end in cells[i]]
+        if None in ends:
+            return True
+        low, high = sorted(ends)
+        turns = round((low + high) / 2 / math.tau - sum(cells[j]) / 2 / math.tau)
+        target = [end + turns * math.tau for end in cells[j]]
+        if low > target[0] + 0.03 or high < target[1] - 0.03:
+            return True
+        if (high - low) / (cells[i][1] - cells[i][0]) < slope - 0.3:
+            return True
+    return False
+
+
+TRUE = (-1, 2121, -2000, 364, (110, 115, 127, 132))  # eta, nu in 1/10000, f' and ends in 1/100
+MOVES = range(-9, 10)
+
+
+def claims(count, seed):
+    """Yield false claims: one or two of the parameters, signs, sets and arrows are others."""
+    rng = random.Random(seed)
+    while count:
+        side, eta, nu, slope, ends = TRUE
+        arrows, alphabet = sorted(product(range(2), repeat=2)), 2
+        for kind in rng.sample(["side", "eta", "nu", "sign", "slope", "ends", "alphabet"], 2):
+            side = -side if kind == "side" else side
+            eta += rng.randint(-900, 900) if kind == "eta" else 0
+            nu = -nu if kind == "sign" else nu + (rng.randint(-900, 900) if kind == "nu" else 0)
+            slope = rng.randint(420, 900) if kind == "slope" else slope
+            if kind == "ends":
+                ends = [end + (rng.choice(MOVES) if rng.random() < 0.5 else 0) for end in ends]
+            alphabet += rng.randint(1, 3) if kind == "alphabet" else 0
+        arrows += [(1, alphabet - 1)] if alphabet > 2 else []
+        cells = [(ends[0] / 100, ends[1] / 100), (ends[2] / 100, ends[3] / 100)]
+        if nu and is_false(side, eta / 1e4, nu / 1e4, slope / 100, cells, arrows):
+            count -= 1
+            yield side, eta, nu, slope, ends, arrows
+
+
+def claimed(lines, side, eta, nu, slope, ends, arrows):
+    """The definitions and the check of a claim: what is claimed is changed, flights are not."""
+    definitions, check = lines
+    unit = int(re.match(r"check_flights \d+ (\d+)", check)[1])
+    a, b, c, d = (end * unit // 100 for end in ends)
+    numbers = f"{side if side > 0 else f'({side})'} {eta * unit // 10000} ({nu * unit // 10000})"
+    check = re.sub(r"(check_flights \d+ \d+) \(-1\) \d+ \(-\d+\)", rf"\1 {numbers}", check)
+    check = re.sub(r"Some \(\d+, \d+\)", f"Some ({slope}, 100)", check)
+    definitions = re.sub(
+        r"numerators1 := .*", f"numerators1 := [({a}, {b}); ({c}, {d})]%Z.", definitions
+    )
+    text = "; ".join(map(str, arrows))
+    return re.sub(r"(arrows1 : .* := ).*", rf"\1[{text}]%nat.", definitions), check
+
+
+def test_an_edit_that_changes_nothing_leaves_the_claim_as_it_is(lines):
+    side, eta, nu, slope, _ = TRUE
+    arrows = sorted(product(range(2), repeat=2))
+    cells = [(1.10, 1.15), (1.27, 1.32)]
+    assert not is_false(side, eta / 1e4, nu / 1e4, slope / 100, cells, arrows)
+    definitions, check = claimed(lines, *TRUE, arrows)
+    assert definitions == lines[0] and check.replace("(364, 100)", "(91, 25)") in (
+        lines[1],
+        lines[1].replace("(364, 100)", "(91, 25)"),
+    )
+
+
+@needs_coqc
+@pytest.mark.slow
+@pytest.mark.parametrize("count", [12, pytest.param(200, marks=pytest.mark.long)])
+def test_no_false_claim_about_the_impact_map_is_accepted(lines, tmp_path, count):
+    parts = [claimed(lines, *claim) for claim in claims(count, seed=9)]
+    assert len({check + definitions for definitions, check in parts}) > count * 0.9
+    assert computed(tmp_path, "Numbers March Flights Graph Cells", parts) == ["false"] * count
 
 
 @needs_coqc

@@ -13,14 +13,16 @@ from hypothesis import strategies as st
 
 from proofs.formal import __main__ as formal
 from proofs.formal import coqc, graphs
-from proofs.formal.written import comment
+from proofs.formal.line import Line
+from proofs.formal.written import comment, pairs
 from proofs.methods.symbolic import SymbolicLemmas
 from proofs.trusted.files import render
 from proofs.trusted.kernel.trees import formula
 from proofs.trusted.verify import check
 from tests.proofs.formal.coq import edited, needs_coqc
-from tests.proofs.trusted.corpus import path_of
 from tests.proofs.trusted.kernel.lemma_examples import text as example
+
+HEAD = graphs.HEAD.format(digest="0", modules=Line.modules)
 
 # a formula as people write it, as Coq's reals have it, and as a tree
 FORMULAS = [
@@ -87,8 +89,8 @@ def written(source):
 @pytest.mark.parametrize(("text", "real", "tree"), FORMULAS)
 def test_formulas_as_coq_reads_them(text, real, tree):
     map_ = SymbolicLemmas({"F": (["x"], [text])}).function("F")
-    assert graphs.formula(map_)[0] == real
-    assert tree is None or graphs.formula(map_)[1] == tree
+    assert graphs.formulas(map_)[0][0] == real
+    assert tree is None or graphs.formulas(map_)[0][1] == tree
 
 
 BINARY = {"Add": "+", "Sub": "-", "Mul": "*", "Div": "/"}
@@ -148,7 +150,7 @@ def test_a_tree_has_the_values_of_its_text(text):
     if value is None:
         return
     map_ = SymbolicLemmas({"F": (["x"], [str(formula(text))])}).function("F")
-    tree = parsed(re.findall(r"[()]|[^\s()]+", graphs.formula(map_)[1]))
+    tree = parsed(re.findall(r"[()]|[^\s()]+", graphs.formulas(map_)[0][1]))
     assert evaluated(python(tree)) == pytest.approx(value, rel=1e-9, abs=1e-9)
 
 
@@ -163,7 +165,10 @@ def test_what_is_stated_for_a_certificate_of_the_checker():
     assert "F1 (x : R) : R := (((39 / 10) * x) * ((1) - x))." in made.text
     assert "[(34 / 200, 88 / 200); (112 / 200, 191 / 200)]" in made.text
     assert said("graph1") == "Theorem graph1 : semiconjugate F1 cells1 arrows1."
-    assert said("entropy1") == "Theorem entropy1 : entropy_at_least F1 cells1 live1 19 9349."
+    assert (
+        said("entropy1")
+        == "Theorem entropy1 : entropy_at_least on_line F1 (interval cells1) live1 19 9349."
+    )
     logistic = written(example("logistic"))
     assert "graph1 : conjugate F1 cells1 arrows1 (209 / 100)" in logistic.text
 
@@ -175,11 +180,16 @@ def test_an_interval_without_an_arrow_onward_carries_no_entropy():
     assert "live1 : list (nat * nat) := [(0, 0)]%nat" in made.text
 
 
-def test_a_map_of_the_plane_is_a_line_and_status_1(capsys, tmp_path):
-    path = path_of("lemmas/accepted/henon_horseshoe")
+def test_a_map_of_three_variables_is_a_line_and_status_1(capsys, tmp_path):
+    file = SymbolicLemmas({"F": (["x", "y", "z"], ["9*x", "y/9", "z/9"])})
+    unit = [[str(int(i == j)) for j in range(3)] for i in range(3)]
+    cube = file.h_set(["0", "0", "0"], unit)
+    file.graph([file.covers("F", 1, cube, cube)])
+    path = tmp_path / "cube.json"
+    path.write_text(render(file.document()))
     assert formal.main([str(path), "--out", str(tmp_path / "out")]) == 1
     error = capsys.readouterr().err
-    assert "more than one variable" in error and error.count("\n") == 1
+    assert "more than two variables" in error and error.count("\n") == 1
     assert not (tmp_path / "out").exists()
 
 
@@ -187,7 +197,7 @@ def test_a_map_of_the_plane_is_a_line_and_status_1(capsys, tmp_path):
 def theory(tmp_path_factory):
     """A folder with the theory of graphs, compiled."""
     folder = tmp_path_factory.mktemp("graphs")
-    modules = coqc.order(graphs.HEAD)
+    modules = coqc.order(HEAD)
     coqc.copy(coqc.theory(modules, print), folder, modules, ".vo")
     return folder
 
@@ -216,11 +226,11 @@ def test_ten_maps_of_the_line(theory):
     parts, names = [], []
     for i, (name, of) in enumerate(MAPS.items()):
         made = written(certificate(*of))
-        body = made.text[len(graphs.HEAD.format(digest="0")) :].partition("(* What all")[0]
+        body = made.text[len(HEAD) :].partition("(* What all")[0]
         parts.append(f"Module M{i}.\n(* {name} *)\n{body}\nEnd M{i}.\n")
         names += [f"M{i}.{theorem.name}" for theorem in made.theorems]
     listed = f"Definition all := ({', '.join(names)}).\nPrint Assumptions all.\n"
-    output = asked(theory, "Ten", graphs.HEAD.format(digest="0") + "".join(parts) + listed)
+    output = asked(theory, "Ten", HEAD + "".join(parts) + listed)
     assert set(coqc.axioms(output)) == coqc.REALS
     conjugate = [i for i, part in enumerate(parts) if ": conjugate F1" in part]
     assert [list(MAPS)[i] for i in conjugate] == [
@@ -264,13 +274,12 @@ def test_of_many_graphs_coq_accepts_those_that_are_true(theory, count):
         cells = [tuple(Fraction(end, 100) for end in cell) for cell in ends]
         cases.append((ends, arrows, all(covers(cells[i], cells[j]) for i, j in arrows)))
     terms = "; ".join(
-        f"check tree 1 100 [{graphs.pairs(ends)}]%Z [{graphs.pairs(arrows)}]%nat"
-        for ends, arrows, _ in cases
+        f"check tree 1 100 [{pairs(ends)}]%Z [{pairs(arrows)}]%nat" for ends, arrows, _ in cases
     )
     output = asked(
         theory,
         "Many",
-        graphs.HEAD.format(digest="0")
+        HEAD
         + "Definition tree := Mul (Mul (Integer 5) X) (Sub (Integer 1) X).\n"
         + f"Set Printing Width 100000.\nEval vm_compute in [{terms}].\n",
     )
@@ -293,9 +302,9 @@ FALSE = {
     "an iterate": ("conjugate F1 cells1", "conjugate (iter F1 2) cells1"),
     "too steep": ("arrows1 209 100 = true", "arrows1 211 100 = true"),
     "steeper as stated": ("(209 / 100)", "(210 / 100)"),
-    "too much entropy": ("live1 vector1 1 2 =", "live1 vector1 1 3 ="),
-    "more entropy as stated": ("cells1 live1 1 2.", "cells1 live1 1 3."),
-    "faster": ("cells1 live1 1 2.", "cells1 live1 0 2."),
+    "too much entropy": ("vector1 1 2 =", "vector1 1 3 ="),
+    "more entropy as stated": ("cells1) live1 1 2.", "cells1) live1 1 3."),
+    "faster": ("cells1) live1 1 2.", "cells1) live1 0 2."),
     "no weight": ("[729000000000; 729000000000]", "[0; 0]"),
     "a negative weight": ("[729000000000; 729000000000]", "[-1; 729000000000]"),
 }
