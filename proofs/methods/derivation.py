@@ -9,9 +9,10 @@ from typing import Any
 
 from proofs.trusted.certificate import SCHEMA, Reader, used_steps
 from proofs.trusted.files import render
+from proofs.trusted.kernel.composition import read_map
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.maps import Map, read_map
+from proofs.trusted.kernel.maps import Map
 from proofs.trusted.rules import find_rule
 
 

@@ -14,8 +14,8 @@ from typing import Any
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel import trees
-from proofs.trusted.kernel.enclose import ARITHMETIC
 from proofs.trusted.kernel.formulas import read_formulas
+from proofs.trusted.kernel.operations import ARITHMETIC
 
 
 class _Expressions:

@@ -10,8 +10,9 @@ from typing import Any
 import intervals
 from intervals import Interval, IntervalError, Undecided
 from proofs.trusted.kernel.covers import Rows
-from proofs.trusted.kernel.enclose import ARITHMETIC, Box, centre_of, point_box
+from proofs.trusted.kernel.enclose import Box, centre_of, point_box
 from proofs.trusted.kernel.formulas import Formulas
+from proofs.trusted.kernel.operations import ARITHMETIC
 
 _MOST_BOXES = 10_000
 _DEEPEST = 40

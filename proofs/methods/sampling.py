@@ -11,11 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from proofs.methods.flows import AT_ONCE, Flown, pace, phase_speeds
+from proofs.trusted.kernel.composition import Composition
 from proofs.trusted.kernel.expression import Tape
 from proofs.trusted.kernel.flight import Flight
 from proofs.trusted.kernel.flow import Flow
 from proofs.trusted.kernel.formulas import Formulas
-from proofs.trusted.kernel.maps import Composition, Map
+from proofs.trusted.kernel.maps import Map
 from proofs.trusted.numbers import Range
 
 Floats = NDArray[np.float64]

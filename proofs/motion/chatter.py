@@ -34,7 +34,7 @@ def around(arc: Separation, spread: Fraction) -> Box:
     phases = arc.arrival if arc.arrival[0] > 0 else lifted(arc.arrival, 1, BITS)
     (phase, speed), grid = ((low + high) / 2 for low, high in (phases, arc.speed)), spread / 1000
     motion = Motion(arc.at, (phase, phase), BITS)
-    start = motion.start()
+    start = motion.start
     gamma = ((Enclosure.of(speed, speed, BITS) * motion.side - start.rate) / start.eta).range[0]
     centre = (round(x / grid) * grid for x in (phase, gamma))
     low, high = ((x - spread, x + spread) for x in centre)

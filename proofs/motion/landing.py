@@ -39,7 +39,7 @@ def separation_phase(system: System, bits: int) -> Range:
         sin, cos = map(middle, rational(phase, places).sincos())
         phase = round((phase - (sin - sine) / cos) * 2**places) / Fraction(2**places)
     ends = around(phase, bits)
-    low, high = (launch_acceleration(Motion(at, (x, x), 2 * places).start()) for x in ends)
+    low, high = (launch_acceleration(Motion(at, (x, x), 2 * places).start) for x in ends)
     if not low.hi < 0 < high.lo or ends[0] < 0:
         raise Undecided("the separation phase is not isolated: sin(phi_s) is too close to 1 or -1")
     return ends

@@ -11,7 +11,8 @@ from typing import Any, NamedTuple
 from proofs.report.layout import percents
 from proofs.trusted.atlas import NOT_YET
 from proofs.trusted.certificate import Malformed, Reader
-from proofs.trusted.kernel.maps import Map, read_map
+from proofs.trusted.kernel.composition import read_map
+from proofs.trusted.kernel.maps import Map
 from proofs.trusted.numbers import show, show_range
 from proofs.trusted.verdicts import Verdict
 

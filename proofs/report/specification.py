@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from importlib import import_module
 
 from proofs.trusted import certificate, verify
-from proofs.trusted.kernel import flight, flow, lohner, maps, normalform, trees
+from proofs.trusted.kernel import composition, flight, flow, lohner, normalform, trees
 from proofs.trusted.kernel.enclose import leaves
 from proofs.trusted.kernel.lohner import Solutions, orthogonal
 from proofs.trusted.kernel.section import Journey
@@ -20,7 +20,7 @@ def specification() -> str:
     """Return the page, in Markdown."""
     parts = ["# Certificates", _doc(certificate), _doc(verify)]
     parts += ["# Formulas", _doc(trees), _doc(normalform), _doc(leaves)]
-    parts += ["# Maps", *map(_doc, (maps, flight, flow, lohner))]
+    parts += ["# Maps", *map(_doc, (composition, flight, flow, lohner))]
     for lemma in (Solutions.step, Solutions.at, orthogonal, Journey.watch, Journey.part):
         parts.append(f"`{lemma.__qualname__}`: {_doc(lemma)}")
     parts.append("# Rules")

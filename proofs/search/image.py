@@ -106,7 +106,7 @@ def _sticks(prover: Prover, phases: Range) -> bool | None:
     if prover.system.sticking_arc != "some":
         return prover.system.sticking_arc == "all"
     for bits in _PRECISIONS:
-        low, high = launch_acceleration(Motion(prover.at, phases, bits).start()).range
+        low, high = launch_acceleration(Motion(prover.at, phases, bits).start).range
         if low > 0 or high < 0:
             return bool(high < 0)
     return None

@@ -167,7 +167,7 @@ def _after_sticking(system: System, plastic: Image) -> Rebound:
     """Add to the plastic image of sticking phases the velocity at the end of their one flight."""
     bits = bits_for(plastic.flight)
     motion = Motion(system.place, separation_phase(system, bits), bits)
-    velocity = arrival(motion.start(), motion.clock(plastic.flight))[1].range
+    velocity = arrival(motion.start, motion.clock(plastic.flight))[1].range
     still = (_ZERO,) * 4
     arrived, dwell, prove = (plastic.flight, plastic.phase, velocity), plastic.dwell, plastic.prove
     return Rebound(*arrived, still, sticking=True, dwell=dwell, prove=prove)

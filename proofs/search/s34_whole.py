@@ -244,7 +244,7 @@ def _graze(prover: Prover, phase: Fraction, time: Fraction) -> tuple[Fraction, F
     for _ in range(NEWTON):
         motion = flight(prover, phase)
         time = zero(motion, time, 1)
-        now, push = motion.clock((time, time)), launch_acceleration(motion.start())
+        now, push = motion.clock((time, time)), launch_acceleration(motion.start)
         along = middle(now.mass_sin) / prover.system.eta * middle(push)
         step = middle(motion.gap_of((time, time), 0)) / along
         phase = round((phase + step) * 2**FINE) / Fraction(2**FINE)

@@ -10,11 +10,7 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import Clock, Launch, clock, gap, launch
 from proofs.trusted.kernel.arithmetic import Dual, Enclosure, pi, rational
 from proofs.trusted.kernel.gaps import Gap
-from proofs.trusted.numbers import (
-    COVER_BITS,
-    Range,
-    increasing,
-)
+from proofs.trusted.numbers import COVER_BITS, Range, increasing
 from proofs.trusted.parameters import Place
 
 LATEST = 10**6
@@ -45,12 +41,9 @@ class Motion:
         return Enclosure.of(*self.at.nu, self.bits)
 
     @cached_property
-    def _start(self) -> Launch:
-        return self.launch(Enclosure.of(*self.phases, self.bits))
-
     def start(self) -> Launch:
-        """Return the launch states."""
-        return self._start
+        """The launch states."""
+        return self.launch(Enclosure.of(*self.phases, self.bits))
 
     def launch(self, phi: Enclosure | Dual) -> Launch:
         """Return the state after a launch at a phase."""
@@ -85,14 +78,14 @@ class Motion:
         centre = replace(self, at=replace(self.at, eta=(middle, middle)))
         moving = Dual(self.eta, rational(Fraction(1), self.bits))
         t = Enclosure.of(*time, self.bits)
-        along: Dual = gap(self.start()._replace(eta=moving), clock(moving, t), order)
+        along: Dual = gap(self.start._replace(eta=moving), clock(moving, t), order)
         reach = Enclosure.of(low - middle, high - middle, self.bits)
         return centre.gap_of(time, order) + along.derivative * reach
 
     @property
     def gap_of(self) -> Gap:
         """The gap as a function of time and order."""
-        return partial(self.gap, self.start())
+        return partial(self.gap, self.start)
 
 
 def read_times(reader: Reader) -> tuple[Fraction, ...]:

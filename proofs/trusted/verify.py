@@ -111,7 +111,7 @@ def _premises(document: Reader) -> Context:
     context = Context(subject_from_json(parameters_of))
     for name, each in functions_of.members():
         METER.get().spend(_STEP)
-        from proofs.trusted.kernel.maps import read_map  # that few files have
+        from proofs.trusted.kernel.composition import read_map  # that few files have
 
         try:
             context.functions[name] = read_map(name, each, context.functions)

@@ -44,7 +44,7 @@ class Meetings:
     @classmethod
     def of(cls, motion: Motion) -> Meetings:
         """Find delta, sigma and tau in floating point, and prove the hypotheses."""
-        start, bits, table = motion.start(), motion.bits, motion.nu
+        start, bits, table = motion.start, motion.bits, motion.nu
         along, across = 1 + start.lift, start.rate / start.eta
         try:
             delta = _near(math.atan2(*(float(sum(x.range)) for x in (across, along))))

@@ -28,8 +28,9 @@ from typing import Any, ClassVar
 from proofs.trusted import paper, verify
 from proofs.trusted.certificate import Malformed, Reader, subject_from_json
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.composition import read_map
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.maps import Map, read_map
+from proofs.trusted.kernel.maps import Map
 from proofs.trusted.kernel.meter import Exhausted, metered
 from proofs.trusted.parameters import Parameters
 from tests.oracles.edits import (

@@ -49,8 +49,8 @@ def others():
 def images_of_flows():
     """By name a flow, and the witness of where it takes a small box."""
     from proofs.trusted.certificate import Reader
+    from proofs.trusted.kernel.composition import read_map
     from proofs.trusted.kernel.enclose import enclosed
-    from proofs.trusted.kernel.maps import read_map
     from tests.proofs.trusted.kernel.flows import FLOWS, box_of
 
     made = {}
@@ -84,8 +84,8 @@ def conclusions(made):
     """The parameters and the conclusions of all steps by name, as the checker derives them."""
     from proofs.trusted import verify
     from proofs.trusted.certificate import Reader, subject_from_json
+    from proofs.trusted.kernel.composition import read_map
     from proofs.trusted.kernel.context import Context
-    from proofs.trusted.kernel.maps import read_map
 
     context = Context(subject_from_json(Reader(made["parameters"])))
     for name, each in made["functions"].items():

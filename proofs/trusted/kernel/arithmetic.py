@@ -236,10 +236,12 @@ def _sincos_at(x: int, bits: int, work: int) -> tuple[_Ends, _Ends, int, int]:
     """Return what `_sincos` does.
 
     Proof. With g = 12 + (bit length of x above the point) guard bits, x is exact, k the nearest
-    multiple of pi/2, r = x - k pi/2 is within [r_lo, r_hi], |r| < 0.8. exp(ir) is summed as
-    t_n = t_(n-1) r / n at the lower end r_lo: a term with error e gives the next one error at
-    most 0.8 e / n + 1 < 3, all terms of sin or cos together 3 N, and the tail is below
-    2 units when a term is below one. r_hi - r_lo adds its own width (|sin'|, |cos'| <= 1).
+    multiple of pi/2, r = x - k pi/2 is within [r_lo, r_hi], |r| < 0.8. For a = |r_lo| sin a is
+    summed by t_(n+2) = t_n a^2 / ((n + 1) (n + 2)): a term that is e units too small makes the next
+    one at most (0.64 e + 0.8 + 1) / 6 + 1 < 2 too small, the terms together off by less than n, and
+    the tail is below 2 units when a term is 0. So sin is off by at most e = n + 2; cos is
+    sqrt(1 - sin^2), with tan(a) < 1.1: off by at most 1.1 e + 1 < 2 e. r_hi - r_lo adds its own
+    width (|sin'|, |cos'| <= 1).
     """
     guard = work - bits
     half_pi_lo, half_pi_hi = pi(work).lo, pi(work).hi  # pi in units of 2^-work
@@ -247,16 +249,17 @@ def _sincos_at(x: int, bits: int, work: int) -> tuple[_Ends, _Ends, int, int]:
     k = (4 * x + half_pi_lo) // (2 * half_pi_lo)  # floor(x / (pi/2) + 1/2), about
     doubled = sorted((2 * x - k * half_pi_lo, 2 * x - k * half_pi_hi))
     r, r_hi = doubled[0] >> 1, -(-doubled[1] >> 1)
-    sums, term, n = [0, 1 << work], 1 << work, 0
-    while term not in (0, -1):
-        n += 1
-        term = (term * r >> work) // n
-        if n & 2:
-            sums[1 - (n & 1)] -= term
-        else:
-            sums[1 - (n & 1)] += term
-    error = 3 * n + 2 + (r_hi - r)
-    return *_turned(sums, error, bits, guard, k), k - (r <= 0), k - (r_hi < 0)
+    square, sin, term, n = r * r >> work, abs(r), abs(r), 1
+    while term:
+        term = (term * square >> work) // ((n + 1) * (n + 2))
+        sin -= term
+        term = (term * square >> work) // ((n + 3) * (n + 4))
+        sin += term
+        n += 4
+    cos = isqrt((1 << 2 * work) - sin * sin)
+    error = 2 * (n + 2) + (r_hi - r)
+    values = [sin if r >= 0 else -sin, cos]
+    return *_turned(values, error, bits, guard, k), k - (r <= 0), k - (r_hi < 0)
 
 
 def _turned(values: list[int], error: int, bits: int, guard: int, k: int) -> tuple[_Ends, _Ends]:

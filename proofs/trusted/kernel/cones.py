@@ -16,7 +16,6 @@ from proofs.trusted.kernel.covers import HSet, LocalMap, beyond, cube
 from proofs.trusted.kernel.enclose import (
     PRECISIONS,
     Box,
-    Enclosures,
     Matrix,
     decide,
     enclosed,
@@ -26,6 +25,7 @@ from proofs.trusted.kernel.enclose import (
     tried,
 )
 from proofs.trusted.kernel.graph import Graph
+from proofs.trusted.kernel.operations import Enclosures
 from proofs.trusted.numbers import within
 
 Form = tuple[Fraction, ...]

@@ -8,10 +8,10 @@ from fractions import Fraction
 from typing import Protocol
 
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
-from proofs.trusted.kernel.enclose import Enclosures, sqrt
 from proofs.trusted.kernel.formulas import Formulas
 from proofs.trusted.kernel.maps import Map
 from proofs.trusted.kernel.meter import METER
+from proofs.trusted.kernel.operations import Enclosures, sqrt
 
 Point = list[Enclosure]  # a box
 

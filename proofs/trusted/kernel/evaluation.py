@@ -9,9 +9,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from proofs.trusted.kernel.arithmetic import MANY, Enclosure, Unproved
-from proofs.trusted.kernel.enclose import LARGEST, Enclosures
 from proofs.trusted.kernel.expression import Steps, Tape
 from proofs.trusted.kernel.meter import METER
+from proofs.trusted.kernel.operations import LARGEST, Enclosures
 
 Bounds = dict[int, int]  # by the places of nodes
 

@@ -28,14 +28,7 @@ from proofs.trusted.kernel.firstzero import Gap
 from proofs.trusted.kernel.formulas import MAX_VALUES, Formulas, Placer, same_form
 from proofs.trusted.kernel.head import optional, read_head, require_name, require_periods
 from proofs.trusted.kernel.returns import ReturnMap
-from proofs.trusted.kernel.trees import (
-    Derivative,
-    Operation,
-    Power,
-    Tree,
-    Variable,
-    read_tree,
-)
+from proofs.trusted.kernel.trees import Derivative, Operation, Power, Tree, Variable, read_tree
 
 _MOST_MOTIONS, _MOST_GAPS, _MOST_ORDERS = 6, 6, 4
 

@@ -9,10 +9,11 @@ from fractions import Fraction
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
-from proofs.trusted.kernel.enclose import Circle, Enclosures, Matrix, centre_of, enclosed, point_box
+from proofs.trusted.kernel.enclose import Circle, Matrix, centre_of, enclosed, point_box
 from proofs.trusted.kernel.evaluation import Partial, enclose
 from proofs.trusted.kernel.expression import Tape
 from proofs.trusted.kernel.normalform import NormalForms, plus
+from proofs.trusted.kernel.operations import Enclosures
 from proofs.trusted.kernel.trees import (
     At,
     Derivative,

@@ -7,12 +7,13 @@ from fractions import Fraction
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.composition import same_state
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.covers import MAX_POWER, Covers, HSet, disjoint
 from proofs.trusted.kernel.elementary import log
 from proofs.trusted.kernel.enclose import integer
-from proofs.trusted.kernel.maps import Map, same_state
+from proofs.trusted.kernel.maps import Map
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import ceil_text, floor_text, hull, show
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.enclose import Circle, Enclosures
+from proofs.trusted.kernel.enclose import Circle
 from proofs.trusted.kernel.expression import Tape
 from proofs.trusted.kernel.formulas import (
     FUNCTION_NAME,
@@ -20,6 +20,7 @@ from proofs.trusted.kernel.formulas import (
     Placer,
 )
 from proofs.trusted.kernel.normalform import NormalForms, Polynomial, plus
+from proofs.trusted.kernel.operations import Enclosures
 from proofs.trusted.kernel.trees import Tree, is_name, read_tree
 from proofs.trusted.numbers import Range, show, show_range
 

@@ -15,13 +15,7 @@ from proofs.trusted.kernel.enclose import Box, integer
 from proofs.trusted.kernel.maps import Map
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.kernel.rates import Cone, Rates, rates
-from proofs.trusted.kernel.rectangles import (
-    Arrows,
-    Rectangle,
-    crossing,
-    follows,
-    read_rectangles,
-)
+from proofs.trusted.kernel.rectangles import Arrows, Rectangle, crossing, follows, read_rectangles
 from proofs.trusted.kernel.words import BarredWord, never_ends
 from proofs.trusted.numbers import floor_text, increasing, show_range
 

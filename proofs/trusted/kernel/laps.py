@@ -13,13 +13,7 @@ from fractions import Fraction
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import AboutMap, Conclusion, Subject, given, named
-from proofs.trusted.numbers import (
-    Range,
-    ceil_text,
-    floor_text,
-    increasing,
-    show_range,
-)
+from proofs.trusted.numbers import Range, ceil_text, floor_text, increasing, show_range
 
 _BITS = 64
 

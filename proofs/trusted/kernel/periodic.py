@@ -15,15 +15,7 @@ from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.contractor import Cutter, Empty, Point, contractor, meet
 from proofs.trusted.kernel.covers import MAX_POWER, along, images
-from proofs.trusted.kernel.enclose import (
-    Box,
-    Matrix,
-    box_text,
-    enclosed,
-    integer,
-    read_box,
-    shown,
-)
+from proofs.trusted.kernel.enclose import Box, Matrix, box_text, enclosed, integer, read_box, shown
 from proofs.trusted.kernel.maps import Map, turned
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.kernel.parametric import Parametric, chained, ranges_of

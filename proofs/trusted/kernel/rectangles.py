@@ -11,13 +11,7 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion, given
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.differential import (
-    BITS,
-    Differential,
-    differential_on,
-    image_of,
-    less,
-)
+from proofs.trusted.kernel.differential import BITS, Differential, differential_on, image_of, less
 from proofs.trusted.kernel.enclose import Box, box_text, read_box
 from proofs.trusted.kernel.maps import Map, read_turns
 from proofs.trusted.numbers import Range, between, ceil_text, hull, increasing

@@ -14,10 +14,11 @@ from operator import mul
 from typing import NamedTuple
 
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
-from proofs.trusted.kernel.enclose import Enclosures, size
+from proofs.trusted.kernel.enclose import size
 from proofs.trusted.kernel.expression import Tape
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.kernel.normalform import MOST_DIGITS
+from proofs.trusted.kernel.operations import Enclosures
 
 Ball = tuple[int, int]
 Form = dict[int, Fraction]  # a linear combination of nodes, by their places

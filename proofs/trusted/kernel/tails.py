@@ -6,9 +6,9 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
-from proofs.trusted.kernel.enclose import LARGEST, Enclosures
 from proofs.trusted.kernel.firstzero import Gap, shown
 from proofs.trusted.kernel.formulas import Formulas
+from proofs.trusted.kernel.operations import LARGEST, Enclosures
 from proofs.trusted.kernel.returns import Launches
 
 _ORDERS = 3  # derivatives of a gap, itself the first, of which one is looked at for ever

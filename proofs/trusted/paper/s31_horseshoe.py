@@ -22,9 +22,10 @@ def horseshoes(found: Found) -> list[StayingSet]:
     return [each for each in found.all(StayingSet) if each.is_horseshoe]
 
 
-def escapes(avoided: Avoids, gap: Range, interval: Range) -> bool:
-    """Whether f is proved to map all phases of a gap outside an interval."""
-    return within(gap, avoided.source) and within(interval, avoided.target)
+def _escape(of: Parameters, found: Found) -> Avoids | None:
+    """Return what proves that f maps all phases of the gap outside I, if that is known."""
+    known = (x for x in found.all(Avoids) if within(of.gap, x.source))
+    return next((x for x in known if within(of.interval, x.target)), None)
 
 
 def _signed_at(of: Parameters, point: Impact) -> Range | None:
@@ -88,9 +89,8 @@ def _gap_escapes(of: Parameters, found: Found) -> Decision:
     for point in impacts(found.here):
         if of.gap[0] < point.phase < of.gap[1] and within(point.image, of.interval):
             return decided(Verdict.REFUTED, point, corrected=horseshoes(found)[:1])
-    for avoided in found.all(Avoids):
-        if escapes(avoided, of.gap, of.interval):
-            return decided(Verdict.VERIFIED, avoided)
+    if avoided := _escape(of, found):
+        return decided(Verdict.VERIFIED, avoided)
     return undecided("no proof that the first impacts of the gap avoid I, and no witness")
 
 
@@ -111,9 +111,8 @@ def _two_preimages(of: Parameters, found: Found) -> Decision:
         return undecided(f"an image falls short of I by up to {ceil_text(-margin)}", known)
     if of.interval != (low, high):
         return undecided("I reaches beyond I0 and I1, where nothing is proved", known)
-    for avoided in found.all(Avoids):
-        if escapes(avoided, of.gap, of.interval):
-            return decided(Verdict.VERIFIED, *arcs, avoided, margin=margin, known=known)
+    if avoided := _escape(of, found):
+        return decided(Verdict.VERIFIED, *arcs, avoided, margin=margin, known=known)
     return undecided("f(I0) and f(I1) cover I; the gap is not proved to escape", known)
 
 

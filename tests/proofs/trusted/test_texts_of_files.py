@@ -13,10 +13,11 @@ import typing
 import pytest
 
 from proofs.trusted.files import render
+from proofs.trusted.kernel.composition import Composition
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.flight import Flight
 from proofs.trusted.kernel.formulas import Formulas
-from proofs.trusted.kernel.maps import Composition, Map
+from proofs.trusted.kernel.maps import Map
 from proofs.trusted.oscillator import PaperMap
 from proofs.trusted.rules import RULES
 from proofs.trusted.verify import premises

@@ -31,9 +31,10 @@ from proofs.trusted.kernel.arcs import Arc, an_arc
 from proofs.trusted.kernel.arithmetic import Dual, Enclosure, Unproved, pi, rational
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.enclose import Box, centre_of, integer, sqrt
+from proofs.trusted.kernel.enclose import Box, centre_of, integer
 from proofs.trusted.kernel.formulas import Formulas, read_formulas
 from proofs.trusted.kernel.gaps import Gap, falls, first_windows
+from proofs.trusted.kernel.operations import sqrt
 from proofs.trusted.kernel.zeros import Piece
 from proofs.trusted.numbers import COVER_BITS, Range, ceil_text, show, show_range, within
 

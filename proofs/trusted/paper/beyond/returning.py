@@ -15,14 +15,7 @@ from proofs.trusted.kernel.images import image_range, inside
 from proofs.trusted.kernel.laps import SlopeRange
 from proofs.trusted.kernel.loops import MOST_CELLS, StableOrbit, led
 from proofs.trusted.kernel.staying import read_part
-from proofs.trusted.numbers import (
-    TURN,
-    Range,
-    between,
-    ceil_text,
-    show,
-    show_range,
-)
+from proofs.trusted.numbers import TURN, Range, between, ceil_text, show, show_range
 from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.paper.s34_circle.landing import Lands, NeverImpacts, Separation
 

@@ -49,8 +49,9 @@ from proofs.trusted.equations import Launch, clock, gap, launch_acceleration
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, pi
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.enclose import integer, sqrt
+from proofs.trusted.kernel.enclose import integer
 from proofs.trusted.kernel.gaps import first_windows
+from proofs.trusted.kernel.operations import sqrt
 from proofs.trusted.numbers import COVER_BITS, Range, increasing
 from proofs.trusted.paper.beyond.grazing import ratio
 from proofs.trusted.parameters import Place

@@ -15,15 +15,7 @@ from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.elementary import log
 from proofs.trusted.kernel.enclose import integer
 from proofs.trusted.kernel.transfer import Collocation, Growth, Trial, growth
-from proofs.trusted.numbers import (
-    Phases,
-    Range,
-    between,
-    ceil_text,
-    floor_text,
-    show,
-    show_range,
-)
+from proofs.trusted.numbers import Phases, Range, between, ceil_text, floor_text, show, show_range
 from proofs.trusted.paper.branches import Branch
 from proofs.trusted.paper.s32_sets.inverses import Inverses, Letter
 from proofs.trusted.parameters import Place

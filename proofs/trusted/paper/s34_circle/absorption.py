@@ -256,7 +256,7 @@ def branch_cells(context: Context, reader: Reader, origin: Fraction) -> Iterator
         (low, first), (high, last) = known[i : i + 2][::sign]
         flight = max(window[0], low[0] - phases[1]), min(window[1], high[1] - phases[0])
         motion = branch.motion(phases)
-        start, now = motion.start(), motion.clock(flight)
+        start, now = motion.start, motion.clock(flight)
         bend = inverse_bend(start, now, inverse_slope(start, now)) * sign
         slopes = (first * sign).range, (last * sign).range
         turned = [*_reduced((low, high), origin)]
@@ -277,7 +277,7 @@ def _impact(branch: Branch, phase: Fraction, time: Fraction) -> tuple[Range, Enc
     if not within((time, time + BRACKET), window):
         raise Unproved("a bracket leaves the window of the first impact")
     motion = branch.motion((phase, phase))
-    start, now = motion.start(), motion.clock((time, time))
+    start, now = motion.start, motion.clock((time, time))
     eta, nu = motion.at.point
     size, bits = abs(nu), motion.bits
     most = BRACKET * (size + eta * size + eta * eta * (1 + size))

@@ -24,7 +24,7 @@ State = tuple[Range, Range]  # phases and relative speeds of impacts
 
 def push(at: Place, phases: Range, bits: int = COVER_BITS) -> Range:
     """Bound a from below and above."""
-    acceleration: Enclosure = launch_acceleration(Motion(at, phases, bits).start())
+    acceleration: Enclosure = launch_acceleration(Motion(at, phases, bits).start)
     return acceleration.range
 
 
@@ -32,7 +32,7 @@ def kicked(at: Place, phases: Range, kicks: Range, bits: int = COVER_BITS) -> Ga
     """Return the gap, by time and order, after launches with these relative velocities."""
     motion = Motion(at, phases, bits)
     kick = Enclosure.of(*kicks, bits) * motion.side
-    return partial(motion.gap, motion.start()._replace(kick=kick))
+    return partial(motion.gap, motion.start._replace(kick=kick))
 
 
 def bounce(at: Place, phases: Range, kicks: Range, time: Range, bits: int = COVER_BITS) -> State:

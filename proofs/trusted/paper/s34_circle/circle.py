@@ -11,10 +11,7 @@ from fractions import Fraction
 
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.staying import StayingSet
-from proofs.trusted.numbers import (
-    hull,
-    within,
-)
+from proofs.trusted.numbers import hull, within
 from proofs.trusted.paper.s2_foundations import unending
 from proofs.trusted.paper.s34_circle.absorption import Absorption, Sink
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts, Separation

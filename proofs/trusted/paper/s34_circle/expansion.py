@@ -130,7 +130,7 @@ def part(branch: Branch, phases: Range, image: Range) -> Part:
 
 def stretch(motion: Motion, time: Range) -> Fraction:
     """Bound 1/|f'| for impacts at these times; Unproved where f' may be 0."""
-    bounds: Range = inverse_slope(motion.start(), motion.clock(time)).range
+    bounds: Range = inverse_slope(motion.start, motion.clock(time)).range
     return max(-bounds[0], bounds[1])
 
 

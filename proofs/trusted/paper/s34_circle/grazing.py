@@ -12,8 +12,9 @@ from proofs.trusted.flights import Motion, lifted, whole_turns
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.enclose import integer, sqrt
+from proofs.trusted.kernel.enclose import integer
 from proofs.trusted.kernel.gaps import falls
+from proofs.trusted.kernel.operations import sqrt
 from proofs.trusted.numbers import Phases, Range, between, increasing, show_range
 from proofs.trusted.paper.branches import MOST_TURNS
 from proofs.trusted.parameters import Place
@@ -153,7 +154,7 @@ def graze(
             raise Unproved("f is not proved to be monotone alike on both sides")
     elif not _returns(motion, final[0], beyond):
         raise Unproved("an impact within q turns is not excluded")
-    push = launch_acceleration(motion.start()) / motion.eta
+    push = launch_acceleration(motion.start) / motion.eta
     along = motion.clock((first, last)).mass_sin * push
     _separates(motion, (first + last) / 2, bend, below)
     root = sqrt((-along if below else along) * 2 / bend).range

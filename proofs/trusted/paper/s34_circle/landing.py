@@ -125,7 +125,7 @@ def separation(context: Context, reader: Reader) -> Separation:
     phase_of, times_of, time_of = reader.fields("phase", "times", "time")
     phase, times, at = Phase(*phase_of.range()), read_times(times_of), context.place
     bits = bits_for(phase)
-    low, high = (launch_acceleration(Motion(at, (x, x), bits).start()) for x in phase)
+    low, high = (launch_acceleration(Motion(at, (x, x), bits).start) for x in phase)
     if not low.hi < 0 < high.lo:
         raise Unproved("the launch acceleration does not change sign in the bracket")
     motion = Motion(at, phase, bits)
@@ -270,7 +270,7 @@ def never_impacts(context: Context, reader: Reader) -> NeverImpacts:
     eta, nu = context.place.point
     if not -1 < nu < 0:
         raise Unproved("closest approaches are known for -1 < nu < 0")
-    start = Motion(context.place, phases, BITS).start()
+    start = Motion(context.place, phases, BITS).start
     away = Enclosure.of(*phases, BITS) - pi(BITS) / 2
     bounds = closest_approach(eta, rational(nu, BITS), start, away, pi(BITS))
     if any(bound.lo <= 0 for bound in bounds):

@@ -164,7 +164,7 @@ def superstable_motion(
 def _speeds(at: Place, phases: Range, gammas: Range, bits: int) -> Range:
     """Enclose the relative speeds before impacts at these phases and velocities."""
     motion = Motion(at, phases, bits)
-    speed: Enclosure = closing(motion.start(), Enclosure.of(*gammas, bits)) * motion.side
+    speed: Enclosure = closing(motion.start, Enclosure.of(*gammas, bits)) * motion.side
     return speed.range
 
 

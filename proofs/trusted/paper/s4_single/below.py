@@ -57,7 +57,7 @@ from proofs.trusted.equations import clock
 from proofs.trusted.kernel.arithmetic import Dual, Unproved, pi, rational
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.enclose import sqrt
+from proofs.trusted.kernel.operations import sqrt
 from proofs.trusted.numbers import Range, between, ceil_text, floor_text, show
 from proofs.trusted.paper.s4_single.orbits import SADDLE, STICK, bits_of, distance, turn
 from proofs.trusted.paper.s4_single.windows import LEAVING, bracketed, excess_at, require_apart

@@ -203,7 +203,7 @@ def single_solution(_: Context, reader: Reader) -> Solution:
     if along.derivative.has_zero:
         raise Unproved("the bracket is not proved to contain one solution of (16) alone")
     motion = Motion(at, phase, bits)
-    start, whole = motion.start(), pi(bits) * (2 * n)
+    start, whole = motion.start, pi(bits) * (2 * n)
     early = None if early_of.is_null() else early_of.number()
     if early is not None and not 0 < early < whole.range[0]:
         raise early_of.fail("not a time between 0 and 2 pi n")

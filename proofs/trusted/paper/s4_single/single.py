@@ -11,14 +11,7 @@ from collections.abc import Callable
 from fractions import Fraction
 
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.paper.formulas import (
-    Derived,
-    Equal,
-    Passage,
-    Theorem,
-    derived_row,
-    theorem,
-)
+from proofs.trusted.paper.formulas import Derived, Equal, Passage, Theorem, derived_row, theorem
 from proofs.trusted.paper.s4_single.below import BelowWindows
 from proofs.trusted.paper.s4_single.orbits import Solution
 from proofs.trusted.paper.s4_single.windows import EtaWindows, NuWindows

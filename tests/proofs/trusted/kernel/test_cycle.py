@@ -10,9 +10,9 @@ import pytest
 from proofs.trusted.certificate import Malformed, Reader
 from proofs.trusted.files import render
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
+from proofs.trusted.kernel.composition import read_map
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.cycle import _stability, periodic_orbit
-from proofs.trusted.kernel.maps import read_map
 from proofs.trusted.verify import Rejected, check
 from tests.effort import examples
 from tests.proofs.trusted.kernel.lemma_examples import text

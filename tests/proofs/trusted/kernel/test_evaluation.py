@@ -7,9 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
-from proofs.trusted.kernel.enclose import Enclosures
 from proofs.trusted.kernel.evaluation import Partial, enclose
 from proofs.trusted.kernel.formulas import on_tape
+from proofs.trusted.kernel.operations import Enclosures
 from proofs.trusted.kernel.trees import formula
 
 TEXTS = (

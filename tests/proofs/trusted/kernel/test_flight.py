@@ -17,8 +17,8 @@ from proofs import Oscillator
 from proofs.trusted.certificate import Malformed, Reader
 from proofs.trusted.files import render
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.composition import read_map
 from proofs.trusted.kernel.enclose import enclosed, point_box
-from proofs.trusted.kernel.maps import read_map
 from tests.effort import examples
 from tests.oracles.flights import Simulation, system_of
 from tests.proofs.trusted.kernel.lemma_examples import add_orbit, horseshoe
@@ -301,7 +301,7 @@ class Barred:
 sys.meta_path.insert(0, Barred())
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.maps import read_map
+from proofs.trusted.kernel.composition import read_map
 from proofs.trusted.rules import find_rule
 document, context = json.load(sys.stdin), Context()
 for name, data in document["functions"].items():

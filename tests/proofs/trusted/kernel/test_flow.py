@@ -19,9 +19,9 @@ from proofs import System
 from proofs.trusted.certificate import SCHEMA, Malformed, Reader
 from proofs.trusted.files import render
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
+from proofs.trusted.kernel.composition import read_map
 from proofs.trusted.kernel.enclose import centre_of, enclosed, point_box
 from proofs.trusted.kernel.lohner import Solutions, orthogonal
-from proofs.trusted.kernel.maps import read_map
 from proofs.trusted.kernel.meter import Exhausted, metered
 from proofs.trusted.kernel.series import Series
 from proofs.trusted.verify import Rejected, check

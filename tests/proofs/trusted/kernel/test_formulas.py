@@ -9,9 +9,10 @@ from hypothesis import strategies as st
 
 from proofs.trusted.certificate import Malformed, Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
-from proofs.trusted.kernel.enclose import Enclosures, attempts, decide, leaves
+from proofs.trusted.kernel.enclose import attempts, decide, leaves
 from proofs.trusted.kernel.head import read_function
 from proofs.trusted.kernel.meter import Exhausted, metered
+from proofs.trusted.kernel.operations import Enclosures
 from tests.intervals.oracle import arb, ends
 from tests.proofs.trusted.kernel.arb_formulas import slopes
 from tests.proofs.trusted.kernel.arb_formulas import value as by_arb

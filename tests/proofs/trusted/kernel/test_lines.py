@@ -9,10 +9,10 @@ import pytest
 
 from proofs.trusted.certificate import Malformed, Reader
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.composition import read_map
 from proofs.trusted.kernel.conclusion import AboutMap
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.itineraries import Itinerary
-from proofs.trusted.kernel.maps import read_map
 from proofs.trusted.kernel.moran import MoranRoot
 from proofs.trusted.paper import find
 from proofs.trusted.parameters import PAPER

@@ -10,9 +10,9 @@ import pytest
 from proofs.trusted.certificate import Malformed, Reader
 from proofs.trusted.files import render
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.composition import read_map
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import enclosed
-from proofs.trusted.kernel.maps import read_map
 from proofs.trusted.rules import find_rule
 from proofs.trusted.verify import Rejected, check
 from tests.effort import examples

@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 
 from proofs.trusted.certificate import Malformed, Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
+from proofs.trusted.kernel.composition import read_map
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.formulas import on_tape
-from proofs.trusted.kernel.maps import read_map
 from proofs.trusted.kernel.tails import Ray, Rays
 from proofs.trusted.kernel.trees import formula
 from proofs.trusted.rules import find_rule

@@ -8,10 +8,10 @@ import pytest
 
 from proofs.trusted.certificate import Malformed, Reader
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.composition import read_map
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.differential import Differential, differential_on
 from proofs.trusted.kernel.horseshoe import Horseshoe
-from proofs.trusted.kernel.maps import read_map
 from proofs.trusted.kernel.rates import Cone, Rates, rates
 from proofs.trusted.kernel.rectangles import overlap
 from proofs.trusted.kernel.words import BarredWord
