@@ -19,20 +19,20 @@ from proofs.trusted.rules import RULES
 ROOT = Path(__file__).parents[1]
 GENERATED = ["docs/api.md", "docs/systems.md"]
 BUDGETS = {
-    "proofs": 55_370,
-    "proofs/trusted": 23_076,
+    "proofs": 55_575,
+    "proofs/trusted": 23_030,
     "proofs/search, proofs/motion": 7_990,
     "proofs/shell": 1_775,
     "proofs/benchmark": 2_005,
     "proofs/stress": 1_225,
-    "tests": 44_660,
+    "tests": 44_925,
     "words of the docs": 12_000,  # of those that are written by hand, the README with them
     "rules outside the kernel": 22,
     "loose modules": 9,  # of the package proofs
-    "tracked files": 912,
-    "headline": 7_220,  # lines of the files that run to check reports/horseshoe.json
-    "way of H2": 7_840,  # lines of the files that run to prove H2 and to check it
-    "way of H2, files": 50,
+    "tracked files": 920,
+    "headline": 6_960,  # lines of the files that run to check reports/horseshoe.json
+    "way of H2": 7_520,  # lines of the files that run to prove H2 and to check it
+    "way of H2, files": 49,
 }
 
 
