@@ -25,6 +25,7 @@ Box = Mapping[str, Sequence[Exact]]  # by variables
 _DIGITS, _BITS = 12, 128  # of images
 EFFORT = 3
 _POINTS, _PASSED, _LONGEST = 1500, 4, 8  # of a picture; periods that are looked for
+_ITERATES = 9  # of which horseshoes are asked for
 _SIDE = Fraction(-3), Fraction(3)  # of a box where points are looked for, if none is given
 _HINTS = {  # what to do about a reason why a map is none
     "unknown variable": ": give it a value among the parameters",
@@ -172,7 +173,8 @@ class Map:
                 return theorem_of(file, find_horseshoe(file, name, candidates))
             except Undecided as error:
                 reason = str(error)
-        raise Undecided(f"{reason}; horseshoe:{longest + 2} looks at later iterates, up to 9")
+        hint = f"; horseshoe:{min(longest + 2, _ITERATES)} looks at later iterates"
+        raise Undecided(reason + hint * (longest < _ITERATES))
 
     def periodic_orbits(self, period: int, box: Box) -> Theorem:
         """Prove which periodic orbits a formula has in a box, and that there are no others."""
