@@ -8,11 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from proofs.methods.newton import Cycle, cycles, distance, seeds, whole_periods
+from proofs.methods.newton import FAR, Cycle, cycles, distance, seeds, whole_periods
 from proofs.methods.sampling import Floats, Sampled
 from proofs.trusted.numbers import Range
 
-_FOLLOWED, _FAR, _CLOSE = 30, 1e6, 1e-3  # points of an attractor
+_FOLLOWED, _CLOSE = 30, 1e-3  # points of an attractor
 _SETTLING, _BRIEFLY = 150, 50  # steps, and those of flows
 _NEUTRAL = 1e-6  # so much less than 1 are multipliers of an attracting orbit
 _ANGLES = (("2*pi", 2 * np.pi), ("1", 1.0))  # periods that a variable may have, not being given
@@ -37,7 +37,7 @@ def followed(sampled: Sampled, box: Sequence[Range], longest: int) -> Followed:
     steps = _BRIEFLY if sampled.has_flows else _SETTLING
     for _ in range(steps):
         after = sampled.reduced(sampled(x))
-        goes_on = np.isfinite(after).all(axis=0) & (np.abs(after) < _FAR).all(axis=0)
+        goes_on = np.isfinite(after).all(axis=0) & (np.abs(after) < FAR).all(axis=0)
         ends.update(_end(sampled, point[:, None]) for point in x.T[~goes_on])
         x = after[:, goes_on]
     return Followed(x, ends, steps, _attractors(sampled, x, longest))
@@ -49,7 +49,7 @@ def _end(sampled: Sampled, x: Floats) -> str:
         before, x = x, Sampled(part, sampled.shares)(x)
         if not np.isfinite(x).all():
             return sampled.undefined(part, before)
-    return f"beyond {_FAR:g}"
+    return f"beyond {FAR:g}"
 
 
 @np.errstate(all="ignore")

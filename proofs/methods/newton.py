@@ -20,7 +20,7 @@ from proofs.trusted.kernel.periodic import Closing
 from proofs.trusted.kernel.zeros import Piece, krawczyk
 from proofs.trusted.numbers import Range
 
-_FAR = 1e6  # where points are lost
+FAR = 1e6  # where points are lost
 _STEPS, _NEAR, _STILL = 12, 1e-9, 1e-13  # of Newton's method
 _SAME = 1e-6  # the distance of points that are one
 _ALIKE = 9  # decimal places in which most starts agree with others
@@ -145,7 +145,7 @@ def _settled(sampled: Sampled, x: Floats, steps: int) -> Floats:
     """Return where points are after some steps, those that stay finite."""
     for _ in range(steps):
         x = sampled.reduced(sampled(x))
-        x = x[:, np.isfinite(x).all(axis=0) & (np.abs(x) < _FAR).all(axis=0)]
+        x = x[:, np.isfinite(x).all(axis=0) & (np.abs(x) < FAR).all(axis=0)]
     return x
 
 
@@ -204,7 +204,7 @@ def _boxes(closing: Closing, point: Floats, matrix: Rows, has_ranges: bool) -> I
         flat = Piece(box, (Fraction(0),) * len(box))
         enclosures = krawczyk(closing, flat, middle, matrix, (None, _BITS))
         image = {k: each.range for k, each in enclosures.items()}
-        if any(high - low > _FAR for low, high in image.values()):
+        if any(high - low > FAR for low, high in image.values()):
             return
         if all(box[k][0] < low and high < box[k][1] for k, (low, high) in image.items()):
             yield box
