@@ -11,7 +11,8 @@ from typing import Any
 from proofs.methods.formulas import Tree, shares, subdivide
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.covers import LocalMap
-from proofs.trusted.kernel.enclose import Box, Differentiable, attempts, enclosed, mean_value_form
+from proofs.trusted.kernel.differential import sharp_values
+from proofs.trusted.kernel.enclose import Box, Differentiable, attempts, enclosed
 from proofs.trusted.kernel.flow import Flow
 from proofs.trusted.kernel.maps import Map
 
@@ -73,10 +74,9 @@ def image_of(map_: Map, box: Box, bits: int) -> tuple[Tree, Box]:
 
 
 def _sharp(map_: Map, x: list[Enclosure]) -> list[Enclosure]:
-    values = map_.values(x)
     with suppress(Unproved):
-        values = list(map(Enclosure.meet, values, mean_value_form(map_, x)))
-    return values
+        return sharp_values(map_, x)
+    return map_.values(x)
 
 
 def part_of_tree(tree: Tree, box: Box) -> tuple[Tree, list[Box]]:

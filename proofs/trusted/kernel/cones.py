@@ -33,14 +33,18 @@ Form = tuple[Fraction, ...]
 
 @dataclass(frozen=True)
 class Conjugacy(Conclusion):
-    """Each path of a graph is followed once: forward if all forms are positive.
+    """Each path of a graph is followed once.
 
     unstable: the number of unstable directions, if these orbits are hyperbolic.
     """
 
     graph: Graph
-    forward: bool
     unstable: int | None
+
+    @property
+    def forward(self) -> bool:
+        """Whether that is so of paths forward: all forms are positive."""
+        return self.unstable == len(self.graph.nodes[0].centre)
 
     @property
     def sentence(self) -> str:
@@ -117,7 +121,7 @@ def cone(context: Context, reader: Reader) -> Conjugacy:
             check_cone(leaf, forms[i], forms[j])
     positive = {sum(entry > 0 for entry in form) for form in forms}
     is_regular = len(positive) == 1 and all(entry for form in forms for entry in form)
-    return Conjugacy(of, positive == {n}, max(positive) if is_regular else None)
+    return Conjugacy(of, max(positive) if is_regular else None)
 
 
 def _derivatives(local: LocalMap, relation: Reader, n: int) -> Box:

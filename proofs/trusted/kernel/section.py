@@ -98,14 +98,14 @@ class Journey:
                 fate = Fate.OPEN if step is None else self.watch(step)
                 if step and not all(self._stays(wall, step, fate) for wall in self.section.walls):
                     fate = Fate.OPEN
-                is_taken = step is not None and fate is not Fate.OPEN
-                if step is not None and is_taken:
+                if step and fate is not Fate.OPEN:
                     self._move(step, fate)
                     if self.falls == self.section.number:
                         return self._arrival()
-                length = min(length + (change if is_taken or step is None else _HALF), _LONGEST)
+                    step = None  # what is left is one that decides nothing
+                length = min(length + (change if step is None else _HALF), _LONGEST)
                 if length < _SHORTEST:
-                    raise self._stopped(self._reason(None if is_taken else step))
+                    raise self._stopped(self._reason(step))
         except Exhausted as error:
             raise Exhausted(f"{error}; {self._place()}") from None
         raise self._stopped(_NOT_REACHED)
