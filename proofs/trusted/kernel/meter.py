@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 
-DEFAULT = 8_000_000  # some eight seconds; committed certificates take less
+DEFAULT = 8_000_000  # some eight seconds; one committed certificate takes more
 
 
 class Exhausted(ArithmeticError):
