@@ -61,7 +61,6 @@ RULES: Mapping[str, str] = MappingProxyType(
         "expansion": "paper.s34_circle.expansion.prove_expansion",
         "cycles": "paper.s34_circle.cycles.prove_cycles",
         "superstable-motion": "paper.s34_circle.persistence.prove_superstable_motion",
-        "passes-separation": "paper.s34_circle.border.passes_separation",
         "single-solution": "paper.s4_single.orbits.single_solution",
         "single-windows": "paper.s4_single.windows.single_windows",
         "sticking-motion": "paper.beyond.returning.prove_sticking_motion",
