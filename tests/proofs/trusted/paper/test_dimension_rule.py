@@ -253,6 +253,7 @@ def test_another_branch_is_refused(change, reason):
         conclude(witness(), known_with(**change))
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("change", "reason"),
     [
