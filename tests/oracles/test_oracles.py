@@ -404,11 +404,6 @@ FALSE = {
         put("expressions", lambda old: (*old[:-1], (old[-1][0], f"2*({old[-1][1]}) + 1"))),
     ],
     "Value": [offs("bounds")],
-    "Zero": [
-        offs("bracket"),
-        put("bracket", lambda old: (old[0], old[0])),
-        put("function", lambda old: f"({old})**2 + 1"),
-    ],
     "UniqueZero": [put("box", lambda old: tuple((b + 10, b + 11) for _, b in old))],
     "Image": [put("bounds", lambda old: tuple((b + 10, b + 11) for _, b in old))],
     "Trapped": [
