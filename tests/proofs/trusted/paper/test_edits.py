@@ -106,7 +106,7 @@ def shortest():
 LENGTHY = "dimension", "grazing-curve"
 SMALLER = dict.fromkeys(("branch", "lands", "absorption"), (PAPER, coarse))
 SMALLER |= dict.fromkeys(
-    ("pieces", "itinerary-graph", "expansion", "cycles", "grazing"), (TEN_PIECES, few_pieces)
+    ("pieces", "itinerary-graph", "expansion", "grazing"), (TEN_PIECES, few_pieces)
 )
 
 
@@ -210,9 +210,8 @@ ACCEPTED = {  # what may be done to which field, in some places; all else is ref
     "put_beside; states swapped doubled_in_place aside collapsed; weights put_to_1 swapped "
     "doubled_in_place nudged moved put_beside; growth nudged moved",
     "expansion": "cuts nudged; times nudged; scales doubled_in_place nudged moved put_beside "
-    "put_to_1; rate nudged",
-    "cycles": "orbits dropped swapped turned; time tighter looser widened nudged moved put_beside; "
-    "radius nudged moved; images dropped swapped doubled_in_place added turned",
+    "put_to_1; rate nudged; orbits dropped swapped turned; time tighter looser widened nudged "
+    "moved put_beside; radius nudged moved; images dropped swapped doubled_in_place added turned",
     "superstable-motion": "box tighter; cells added; bounces tighter looser widened nudged "
     "put_beside; ratio nudged; rest nudged",
     "superstable-motion@passes": "box tighter; bounces tighter looser widened",
