@@ -27,8 +27,7 @@ from proofs.trusted.kernel.meter import Exhausted, metered
 from proofs.trusted.parameters import PAPER, Parameters, Place
 from proofs.trusted.rules import RULES
 from proofs.trusted.verify import derive, premises
-from tests.effort import EFFORT
-from tests.once import committed, once, report
+from tests.once import EFFORT, committed, once, report
 from tests.oracles.judge import oracle
 from tests.proofs.trusted import renewing
 from tests.proofs.trusted.edits import at, edited, put, walk
