@@ -110,7 +110,10 @@ SMALLER |= dict.fromkeys(
 
 
 SMALLER |= {"grazing-curve": (None, grazing_curve), "grazing-meets": (None, grazing_curve)}
-SMALLER |= {"settles": (ALL_STICK, settling), "sticking-motion": (AFTER_THE_ARC, coming_back)}
+SMALLER |= {
+    "sticking-motion@all": (ALL_STICK, settling),
+    "sticking-motion": (AFTER_THE_ARC, coming_back),
+}
 
 
 SHAPES = {  # other steps by a rule, whose witnesses have other fields
@@ -122,9 +125,9 @@ SHAPES = {  # other steps by a rule, whose witnesses have other fields
 
 def source(rule):
     """Steps, what they prove, the name of one by this rule, or of the other shape after an @."""
-    rule, _, named = rule.partition("@")
-    if rule in SMALLER:
-        steps, context = SMALLER[rule][1](), derived(*SMALLER[rule])
+    shape, (rule, _, named) = rule, rule.partition("@")
+    if shape in SMALLER:
+        steps, context = SMALLER[shape][1](), derived(*SMALLER[shape])
         return steps, context, next(x for x, step in steps.items() if step["rule"] == rule)
     file, name = SHAPES[rule, named] if named else shortest()[rule]
     text = lemma(file) if file in EXAMPLES else committed()[file]
@@ -177,7 +180,7 @@ def again(context, name, rule, witness):
 
 
 OWN = [rule for rule, place in RULES.items() if not place.startswith("kernel.")]
-OWN += map("@".join, SHAPES)
+OWN += ["sticking-motion@all", *map("@".join, SHAPES)]
 OWN += ["moran-root", "itinerary", "staying-set", "covering-graph", "stable-orbit"]
 
 
