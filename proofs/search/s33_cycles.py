@@ -85,14 +85,8 @@ def prove_cycle(
     least, reach = box(1, 1), box(away[0], away[1])
     half = [rounded(_HALF * x / max(least) + y) for x, y in zip(least, reach, strict=True)]
     around = [texts((x - r, x + r)) for x, r in zip(state, half, strict=True)]
-    name = prover.derive(
-        "stable-cycle",
-        function=function_of(at),
-        box=around,
-        period=str(period),
-        rounds=str(rounds),
-    )
-    return name, prover.get(name, StableCycle)
+    witness = {"function": function_of(at), "box": around}
+    return prover.derive("stable-cycle", witness | {"period": str(period), "rounds": str(rounds)})
 
 
 def seen_from(at: Place, state: State, period: int) -> tuple[State, float]:
