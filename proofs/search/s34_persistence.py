@@ -40,7 +40,7 @@ _TRIES = 20  # simulated motions
 @proving
 def prove(request: Request) -> Evidence:
     """Prove what the claims asked for rest on; G8 is an observation: it is simulated."""
-    prover, evidence = request.prover(), Evidence()
+    prover, evidence = ReboundProver(request.of, request.digits), Evidence()
     if request.asks("G7", "G12", "G15", "G16"):
         with suppress(*FAILED):  # what is not proved the claims do not say
             request.tell(
@@ -54,11 +54,10 @@ def prove(request: Request) -> Evidence:
                 evidence.proofs["G15"] = [*proof, *border(prover, motion)]
             if request.asks("G7", "G12", "G16"):
                 request.tell("another stable orbit")
-                rebounds = ReboundProver(request.of, prover)
-                others = list(islice(stable_cycles(rebounds, _OTHER, _TRIES, 2), 1))
+                others = list(islice(stable_cycles(prover, _OTHER, _TRIES, 2), 1))
                 if request.asks("G16"):
                     request.tell("the same orbit for other epsilon")
-                    cycles = [each for _, other in others for each in branch(rebounds, other)]
+                    cycles = [each for _, other in others for each in branch(prover, other)]
                     evidence.proofs["G16"] = [*proof, *cycles]
                 proof += others
     if request.asks("G8"):
