@@ -348,12 +348,8 @@ FALSE = {
     "EtaWindows": [
         put("ends", lambda old: ((off(old[0][0]), old[0][1]), *old[1:])),
         put("ends", lambda old: old[:2]),
-    ],
-    "BelowWindows": [
-        put("ends", lambda old: ((off(old[0][0]), old[0][1]), *old[1:])),
-        put("ends", lambda old: old[:2]),
-        put("late", lambda old: (old[0], off(old[1]))),
-        put("late", lambda old: (off(old[0]), off(old[1]))),
+        put("late", lambda old: old and (old[0], off(old[1]))),
+        put("late", lambda old: old and (off(old[0]), off(old[1]))),
     ],
     "NuWindows": [_window, put("below", ())],
     "Differential": [

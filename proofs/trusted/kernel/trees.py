@@ -1,10 +1,11 @@
 """Formulas as trees: their one reader, their one printer, and substitution.
 
-A text is in Python's notation: + - * / and ** with an integer exponent other than 0,
-decimals of at most 40 places (exact), pi, sqrt, exp, log, sin, cos, atan, names of at most 12
-characters. D(F, x, y) is the derivative of F by x and then by y; at(F, x=G, y=H), F with G and H in
-the places of x and y at once, binds x and y in F, where they are named _1, _2 and so on, whatever
-the text calls them. As usual - and / are taken from the left, -x**2 is -(x**2), and a/b*c is (a/b)*c.
+A text is in Python's notation: + - * / and ** with an integer exponent other than 0, integers,
+decimals of at most 40 places, which are exact too, pi, sqrt, exp, log, sin, cos, atan, names of
+variables of at most 12 characters. D(F, x, y) is the derivative of F by x and then by y; at(F, x=G,
+y=H), F with G and H in the places of x and y at once, binds x and y in F, where they are named _1,
+_2 and so on, whatever the text calls them. As usual - and / are taken from the left, -x**2 is
+-(x**2), and a/b*c is (a/b)*c.
 
 What is printed is printed from the tree. Printed text, read again, is the same tree.
 """

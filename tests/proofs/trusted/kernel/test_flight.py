@@ -19,7 +19,7 @@ from proofs.trusted.files import render
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.composition import read_map
 from proofs.trusted.kernel.enclose import enclosed, point_box
-from tests.effort import examples
+from tests.once import examples
 from tests.oracles.flights import Simulation, system_of
 from tests.proofs.trusted.kernel.lemma_examples import add_orbit, horseshoe
 from tests.proofs.trusted.kernel.lemma_examples import ball as ball_example

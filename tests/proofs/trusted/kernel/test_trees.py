@@ -31,8 +31,8 @@ from proofs.trusted.kernel.trees import (
 from proofs.trusted.paper import GROUPS, find
 from proofs.trusted.paper.formulas import Asked
 from proofs.trusted.verify import check
-from tests.effort import examples
 from tests.intervals.oracle import arb
+from tests.once import examples
 from tests.once import report as committed
 from tests.oracles.formulas import compiled, differ
 from tests.proofs.trusted.kernel.lemma_examples import EXAMPLES
