@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import random
 from collections.abc import Iterator
 from contextlib import suppress
 from fractions import Fraction
@@ -20,7 +19,7 @@ from proofs.trusted.kernel.covers import images
 from proofs.trusted.kernel.differential import Differential
 from proofs.trusted.kernel.enclose import Matrix, enclosed, point_box
 from proofs.trusted.kernel.parametric import moved
-from proofs.trusted.kernel.periodic import Closing, derivative
+from proofs.trusted.kernel.periodic import Closing, derivative, less_one
 from proofs.trusted.kernel.rates import size
 from proofs.trusted.kernel.stable import StableCycle, minus_one
 from proofs.trusted.kernel.zeros import Rows
@@ -91,22 +90,21 @@ def prove_cycle(
     least, reach = box(1, 1), box(away[0], away[1])
     half = [rounded(_HALF * x / max(least) + y) for x, y in zip(least, reach, strict=True)]
     around = [texts((x - r, x + r)) for x, r in zip(state, half, strict=True)]
-    slopes = Closing(map_, period, (turns,)).jacobian(points[0])
-    matrix = minus_one(2) if rounds == 1 else _newton(slopes)
+    matrix = minus_one(2) if rounds == 1 else _newton(derivative(map_, points[:period]))
     orbit = {
         "function": function_of(at),
         "period": str(period),
         "box": around,
-        "matrix": list(map(texts, matrix)),
+        "matrix": [[str(x) for x in row] for row in matrix],
         "turns": [str(turns)],
     }
-    name = prover.derive("stable-cycle", orbit=orbit, rounds=str(rounds))
-    return name, prover.get(name, StableCycle)
+    return prover.derive("stable-cycle", {"orbit": orbit, "rounds": str(rounds)})
 
 
 def _newton(matrix: Matrix) -> Rows:
-    """Return about the inverse."""
-    middles = tuple(tuple(sum(x.range, Fraction(0)) / 2 for x in row) for row in matrix)
+    """Return about the inverse of D - 1."""
+    slopes = less_one(matrix)
+    middles = tuple(tuple(sum(x.range, Fraction(0)) / 2 for x in row) for row in slopes)
     return [[Fraction(round(x * _GRID), _GRID) for x in row] for row in inverse(middles)]
 
 
@@ -147,11 +145,9 @@ def around_image(step: Differential) -> list[Range]:
 
 def _candidates(system: System, epsilon: float, tries: int) -> Iterator[list[Floats]]:
     """Yield about the states of periodic orbits that simulated motions tend to."""
-    from proofs.motion.transients import GOING, Motions
+    from proofs.motion.transients import GOING, Motions, random_impacts
 
-    generator = random.Random(1)
-    starts = [(generator.uniform(0, math.tau), generator.uniform(0, 0.4)) for _ in range(tries)]
-    motions, path = Motions(system, epsilon, starts), []
+    motions, path = Motions(system, epsilon, random_impacts(tries)), []
     motions.follow(_IMPACTS)
     for _ in range(_LONGEST + 1):
         path.append([*zip(motions.phases.tolist(), motions.speeds.tolist(), strict=True)])

@@ -57,19 +57,14 @@ RULES: Mapping[str, str] = MappingProxyType(
         "grazing": "paper.s34_circle.grazing.grazing",
         "pieces": "paper.s34_circle.pieces.pieces",
         "itinerary-graph": "paper.s34_circle.laps.itinerary_graph",
-        "expansion": "paper.s34_circle.expansion.prove_expansion",
-        "cycles": "paper.s34_circle.cycles.prove_cycles",
+        "expansion": "paper.s34_circle.cycles.prove_expansion",
         "superstable-motion": "paper.s34_circle.persistence.prove_superstable_motion",
-        "passes-separation": "paper.s34_circle.border.passes_separation",
         "single-solution": "paper.s4_single.orbits.single_solution",
-        "single-below-windows": "paper.s4_single.below.below_windows",
-        "single-eta-windows": "paper.s4_single.windows.eta_windows",
-        "single-nu-windows": "paper.s4_single.windows.nu_windows",
-        "sticking-motion": "paper.beyond.returning.prove_sticking_motion",
+        "single-windows": "paper.s4_single.windows.single_windows",
+        "sticking-motion": "paper.beyond.attractors.prove_sticking_motion",
         "grazing-curve": "paper.beyond.grazing.grazing_curve",
         "grazing-meets": "paper.beyond.meetings.meeting",
         "stable-singles": "paper.beyond.singles.stable_singles",
-        "settles": "paper.beyond.attractors.prove_settles",
     }
 )
 

@@ -19,7 +19,7 @@ from proofs.trusted.kernel.formulas import on_tape
 from proofs.trusted.kernel.tails import Ray, Rays
 from proofs.trusted.kernel.trees import formula
 from proofs.trusted.rules import find_rule
-from tests.effort import examples
+from tests.once import examples
 from tests.oracles.judge import oracle
 from tests.proofs.trusted.kernel.systems import BALL, FAR, RESTING
 from tests.proofs.trusted.kernel.test_flight import CLOCK, clock, moving
