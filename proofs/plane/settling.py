@@ -16,10 +16,11 @@ from intervals import Undecided
 from proofs.motion.many import float_gap, next_impacts, separation_phases
 from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
-from proofs.motion.witness import FlightBox
+from proofs.motion.witness import Flights
 from proofs.plane.steps import Steps, bracket, corners, times_for
 from proofs.trusted.certificate import texts
 from proofs.trusted.equations import launch, launch_acceleration
+from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.differential import BITS, sharp_values
 from proofs.trusted.kernel.enclose import enclosed
@@ -235,8 +236,7 @@ def _separation(made: Steps, after: float = 0) -> tuple[str, Fraction, Range]:
     flown = next_impacts(made.box.side, etas, nus, float(phase[1]) + _LATER, _FARTHEST).times
     if not np.isfinite(flown).all():
         raise Undecided("a flight from the separation is not seen to end")
-    flights = FlightBox.plastic(made.box, phase, separating=True)
-    times = times_for(flights, float(flown.max()))
+    times = times_for(Flights.plastic(Motion(made.box, phase)), (3,), float(flown.max()))
     time = bracket(made.box, phase, times)
     witness = {"phase": texts(phase), "times": texts(times), "time": texts(time)}
     return made.add("separation", witness), phase[1], (phase[0] + time[0], phase[1] + time[1])

@@ -27,7 +27,7 @@ from proofs.search.shifts import Symbol, cells, families, pieces, rounded_out, s
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.numbers import Range
-from proofs.trusted.paper.s34_circle.persistence import landed
+from proofs.trusted.paper.s34_circle.bounces import landed
 from proofs.trusted.parameters import Place
 
 _MOST_IMPACTS = 30

@@ -26,8 +26,9 @@ from proofs.search.s34_border import border, witness
 from proofs.search.s34_circle import prove_arc
 from proofs.search.steps import Prover
 from proofs.trusted.numbers import Range
+from proofs.trusted.paper.s34_circle.bounces import Box, landed
 from proofs.trusted.paper.s34_circle.landing import Separation
-from proofs.trusted.paper.s34_circle.persistence import Box, Cell, SuperstableMotion, landed
+from proofs.trusted.paper.s34_circle.persistence import Cell, SuperstableMotion
 
 _SPREAD = Fraction(1, 100_000)  # of phases and speeds around the impact
 _STEPS = Fraction(1, 10), Fraction(1, 100), Fraction(1, 1000)  # of epsilon, tried in turn

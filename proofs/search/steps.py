@@ -17,7 +17,7 @@ from proofs.methods.derivation import Derivation
 from proofs.methods.extremes import extremes
 from proofs.methods.moran import moran_root
 from proofs.motion.system import System
-from proofs.motion.witness import FlightBox, NoImpact, name_of
+from proofs.motion.witness import NoImpact
 from proofs.search.evidence import Proved, Steps
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -75,10 +75,6 @@ class Prover(Derivation):
         """Return the steps so far, that one claimed."""
         return self.at, self.steps, [name]
 
-    def flights(self, phases: Range) -> FlightBox:
-        """Return all launches of some phases."""
-        return FlightBox.plastic(self.at, phases)
-
     def windows(self, phases: Range) -> dict[Range, Range]:
         """Return the windows of transversal first impacts, on parts of an interval in order."""
 
@@ -116,7 +112,7 @@ class Prover(Derivation):
         try:
             return [phases[0], *(part[1] for part, _ in known)]
         except PartsExhausted:
-            raise Undecided(f"{_MOST_PARTS} parts of {name_of(phases)} do not suffice") from None
+            raise Undecided(f"{_MOST_PARTS} parts of {show_range(phases)} do not suffice") from None
 
     def slopes(self, points: list[Fraction]) -> tuple[str, SlopeRange]:
         """Prove f C^1 on [points[0], points[-1]] and enclose f' there (rule slopes)."""

@@ -272,8 +272,7 @@ Border: motion.epsilons = 0 9/10
 StableCycle: boxes.0.0 off; boxes alike; epsilon = 1/2
 TwoAttractors: cycles drop 2; cycles drop -1; motion.epsilons = 0 29/100; cycles.*.boxes.0.0 off
 Solution: multiplier off; acceleration off; phase off; early = 1/1000000; n + 1; first = true
-EtaWindows: ends.0.0 off; ends keep 2
-BelowWindows: ends.0.0 off; ends keep 2; late.1 off; late.0 off
+EtaWindows: ends.0.0 off; ends keep 2; late.1 off; late.0 off
 NuWindows: above.0 later; below = []
 Differential: values.0 off; values.1 off; matrix.0.0 off; turns.* + 1
 Rectangle: edges.0.0 off; parts from 1; parts.*.matrix.0.0 off; parts.*.values.1 off

@@ -1,4 +1,4 @@
-"""G7, G8 and G15: what the rules accept, what they refuse, and what their conclusions decide.
+"""G7 and G8: what the rules accept, what they refuse, and what their conclusions decide.
 
 True values come from `reference` (equations (10) and (14) typed by hand, mpmath, 50 digits).
 """
@@ -22,14 +22,13 @@ from proofs.trusted.kernel.stable import StableCycle
 from proofs.trusted.numbers import Phase
 from proofs.trusted.oscillator import Oscillator, PlasticMap
 from proofs.trusted.paper import find
-from proofs.trusted.paper.s34_circle.border import Border, Passes
 from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
 from proofs.trusted.parameters import PAPER, Place
 from proofs.trusted.verdicts import Verdict
 from tests.oracles.judge import oracle
 from tests.proofs.trusted.paper import reference
-from tests.proofs.trusted.paper.steps import add, apply, derive, edited, evidence, exact, known_of
+from tests.proofs.trusted.paper.steps import add, derive, edited, evidence, exact, known_of
 
 F = Fraction
 ETA, NU = mpf("0.2121"), mpf("-0.2")
@@ -267,80 +266,3 @@ def test_a_bounce_that_leaves_the_arc_is_refused():
 def test_a_witness_for_another_oscillator_is_refused(of, changes):
     with pytest.raises((Unproved, Malformed)):
         derive(short(), replace(PAPER, **changes))
-
-
-# -- claim G15 -------------------------------------------------------------------------------------
-
-
-RESTS, PASSES = "superstable-motion-2", "passes-separation-1"
-
-
-def known():
-    return known_of("persistence")
-
-
-@pytest.mark.slow
-def test_what_is_said():
-    decision = find("G15").decide(PAPER, [x for _, x in evidence("persistence").proofs["G15"]])
-    assert find("G15").own and decision.verdict.value == "VERIFIED"
-    low, high = decision.quantities["epsilon_border"]
-    assert low < Fraction("0.3611125") < high < low + Fraction(11, 10**7)
-    assert "boundary point in [0.361112, 0.361113]" in decision.theorem
-    assert known()[PASSES].arc.turns > 1  # in flight it passes phi_s first, more than once
-    assert "before the first phi_s after it lands" in decision.theorem
-    for found in (known()[RESTS], known()[PASSES]):
-        assert oracle(found, random.Random(1)) == []
-
-
-@pytest.mark.slow
-def test_a_border_needs_all_in_order():
-    motion = known()["superstable-motion-1"]
-    rests, passes = known()[RESTS], known()[PASSES]
-    assert isinstance(passes, Passes) and isinstance(rests, SuperstableMotion)
-    assert Border(motion, rests, passes)
-    arc = replace(rests.arc, at=replace(rests.arc.at, nu=(Fraction(-1, 4),) * 2))
-    for change in (
-        (rests, motion, passes),
-        (rests, rests, passes),
-        (motion, motion, passes),
-        (motion, replace(rests, epsilons=(Fraction("0.3"),) * 2), passes),
-        (motion, replace(rests, epsilons=(Fraction("0.36"), rests.largest)), passes),
-        (motion, replace(rests, epsilons=(passes.epsilon,) * 2), passes),
-        (motion, rests, replace(passes, arc=arc)),
-        (replace(motion, epsilons=(Fraction(0), Fraction("0.3612"))), rests, passes),
-        (replace(motion, epsilons=(Fraction("0.01"), motion.largest)), rests, passes),
-    ):
-        with pytest.raises(Unproved):
-            Border(*change)
-
-
-@pytest.mark.slow
-def test_a_mass_that_passes_has_landed_on_the_arc():
-    passes = known()[PASSES]
-    for wrong in (
-        replace(passes.arc, speed=(Fraction(0), passes.arc.speed[1])),
-        replace(passes.arc, arrival=(passes.arc.start[0], passes.arc.arrival[1])),
-    ):
-        with pytest.raises(Unproved, match="followed by a bounce"):
-            replace(passes, arc=wrong)
-    for epsilon in (0, 1, -1):
-        with pytest.raises(Unproved, match="followed by a bounce"):
-            replace(passes, epsilon=Fraction(epsilon))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("change", "reason"),
-    [
-        (lambda arc: {"speed": (Fraction(1, 10**9), arc.speed[1])}, "in flight"),  # some are not
-        (lambda arc: {"phase": arc.arrival}, "after phi_s"),
-        (lambda arc: {"at": replace(arc.at, eta=(Fraction("0.2121"), Fraction(5)))}, "longer"),
-    ],
-)
-def test_all_that_has_landed_must_fly_beyond_phi_s(change, reason):
-    """From a speed of 0.1352 at 4.64, with epsilon = 0.9, the first rebound goes beyond."""
-    arc = known()["separation-1"]
-    witness = {"separation": "arc", "epsilon": "9/10", "bounces": []}
-    assert apply("passes-separation", witness, {"arc": arc}).bounces == 0
-    with pytest.raises(Unproved, match=reason):
-        apply("passes-separation", witness, {"arc": replace(arc, **change(arc))})
