@@ -31,7 +31,7 @@ examples:
   python -m proofs stress --family functions --json - > functions.json
 
 The same seed draws the same cases. With --out the report is written as stress.md and stress.json.
-What is true is computed by python-flint (pip install 'impact-proofs[fast]').
+What is true is computed by python-flint (pip install 'impact-proofs[benchmark]').
 
 families:
 """
@@ -75,7 +75,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if options.out is not None:
         check_folder(parser, options.out)
     if not installed("flint"):
-        say(f"{parser.prog}: needs python-flint: pip install 'impact-proofs[fast]'", sys.stderr)
+        say(f"{parser.prog}: no python-flint: pip install 'impact-proofs[benchmark]'", sys.stderr)
         return 1
     by = arithmetic(FLINT, BITS)
     chosen = [f for f in FAMILIES if options.family is None or f.name in options.family]
