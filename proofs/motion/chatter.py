@@ -16,9 +16,9 @@ from proofs.trusted.equations import clock, gap, launch, launch_acceleration
 from proofs.trusted.flights import Motion, lifted
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.numbers import COVER_BITS, Range
-from proofs.trusted.paper.s34_circle.bounces import State, bounce, kicked, push
+from proofs.trusted.paper.s34_circle.bounces import Box, State, bounce, kicked, push
 from proofs.trusted.paper.s34_circle.landing import Separation
-from proofs.trusted.paper.s34_circle.persistence import Box, Cell
+from proofs.trusted.paper.s34_circle.persistence import Cell
 from proofs.trusted.parameters import Place
 
 BITS = 256  # of states that are followed far
@@ -64,7 +64,7 @@ class Pushing:
             kicks = epsilon[0] * speeds[0], epsilon[1] * speeds[1]
             ending = self.ending(epsilon[1], phases, kicks[1])
             if ending is not None:
-                return Cell(epsilon, bounces, *ending)
+                return Cell(epsilon, bounces, ending)
             time, (phases, speeds) = self.bounce(phases, kicks)
             bounces.append(time)
         raise Undecided(f"{_MOST_BOUNCES} bounces and no rest")

@@ -26,8 +26,9 @@ from proofs.search.s34_border import border, witness
 from proofs.search.s34_circle import prove_arc
 from proofs.search.steps import Prover
 from proofs.trusted.numbers import Range
+from proofs.trusted.paper.s34_circle.bounces import Box, landed
 from proofs.trusted.paper.s34_circle.landing import Separation
-from proofs.trusted.paper.s34_circle.persistence import Box, Cell, SuperstableMotion, landed
+from proofs.trusted.paper.s34_circle.persistence import Cell, SuperstableMotion
 
 _SPREAD = Fraction(1, 100_000)  # of phases and speeds around the impact
 _STEPS = Fraction(1, 10), Fraction(1, 100), Fraction(1, 1000)  # of epsilon, tried in turn
@@ -39,7 +40,7 @@ _TRIES = 20  # simulated motions
 @proving
 def prove(request: Request) -> Evidence:
     """Prove what the claims asked for rest on; G8 is an observation: it is simulated."""
-    prover, evidence = request.prover(), Evidence()
+    prover, evidence = ReboundProver(request.of, request.digits), Evidence()
     if request.asks("G7", "G12", "G15", "G16"):
         with suppress(*FAILED):  # what is not proved the claims do not say
             request.tell(
@@ -53,11 +54,10 @@ def prove(request: Request) -> Evidence:
                 evidence.proofs["G15"] = [*proof, *border(prover, motion)]
             if request.asks("G7", "G12", "G16"):
                 request.tell("another stable orbit")
-                rebounds = ReboundProver(request.of, prover)
-                others = list(islice(stable_cycles(rebounds, _OTHER, _TRIES, 2), 1))
+                others = list(islice(stable_cycles(prover, _OTHER, _TRIES, 2), 1))
                 if request.asks("G16"):
                     request.tell("the same orbit for other epsilon")
-                    cycles = [each for _, other in others for each in branch(rebounds, other)]
+                    cycles = [each for _, other in others for each in branch(prover, other)]
                     evidence.proofs["G16"] = [*proof, *cycles]
                 proof += others
     if request.asks("G8"):

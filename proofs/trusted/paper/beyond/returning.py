@@ -7,14 +7,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import prod
 
-from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import About, Conclusion
-from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.images import image_range, inside
 from proofs.trusted.kernel.laps import SlopeRange
-from proofs.trusted.kernel.loops import MOST_CELLS, StableOrbit, led
-from proofs.trusted.kernel.staying import read_part
+from proofs.trusted.kernel.loops import StableOrbit, led
 from proofs.trusted.numbers import TURN, Range, between, ceil_text, show, show_range
 from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.paper.s34_circle.landing import Lands, NeverImpacts, Separation
@@ -247,26 +244,3 @@ def _steepest(arc: Separation) -> Fraction:
         raise Unproved("the first impact is not proved to be transversal")
     rise = max(map(abs, arc.at.nu)) * max(abs(1 - low**2), abs(1 - high**2))
     return rise * width / (low * arc.speed[0])
-
-
-def prove_sticking_motion(
-    context: Context, reader: Reader
-) -> StickingMotion | ReturningMotion | SticksOnce:
-    """Rule `sticking-motion`: {separation, cells: [{slopes, domain}], beyond, landing}.
-
-    separation, landing: names of steps; slopes: a step of that rule; domain: two of its points;
-    beyond: null, or as a cell; landing: or null. Conclusion: `sticking_motion`; `sticks_once` where
-    landing is a `stable-orbit` or a `never-impacts` step.
-    """
-    separation_of, cells_of, beyond_of, landing_of = reader.fields(
-        "separation", "cells", "beyond", "landing"
-    )
-    parts = [read_part(context, cell) for cell in cells_of.items(0, MOST_CELLS)]
-    beyond = None if beyond_of.is_null() else read_part(context, beyond_of)
-    arc = context.step(separation_of, Separation)
-    landing = None if landing_of.is_null() else context.step(landing_of, Conclusion)
-    if isinstance(landing, StableOrbit | NeverImpacts) and beyond is None:
-        return sticks_once(arc, parts, landing)
-    if not isinstance(landing, Lands | None):
-        raise landing_of.fail("names no step about where the last impact is")
-    return sticking_motion(arc, parts, beyond, landing)
