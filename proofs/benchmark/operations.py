@@ -1,4 +1,7 @@
-"""Single operations and arrays, beside python-flint, mpmath.iv and other packages of arrays."""
+"""Single operations and arrays, beside python-flint, mpmath.iv and other packages of arrays.
+
+The least bounds are those of `Interval` at 53 bits. A package that is absent has no row.
+"""
 
 from __future__ import annotations
 

@@ -1,6 +1,10 @@
 """Groups of claims: what a prover proved, decided, and written as a certificate and a page.
 
 A group has a prover in `proofs.search`, and a command, a row of `proofs.commands.groups`.
+
+MANIFEST.json says for each file the claims that it settles, its digest, and the two commands: that
+makes the certificate, and that checks it in the folder where it lies. The same certificates always
+are the same bytes there: nothing tells when or where they were made.
 """
 
 from __future__ import annotations

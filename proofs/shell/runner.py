@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 from intervals import Undecided
 from proofs.report.figures import figures, names
 from proofs.report.page import Line
-from proofs.shell.cli import Parser, heard, progress, share
+from proofs.shell.cli import Parser, add_parameters, heard, parameters, progress, refusal, share
 from proofs.shell.files import (
     check_folder,
     check_targets,
@@ -28,7 +28,6 @@ from proofs.shell.files import (
     writing,
 )
 from proofs.shell.groups import FILES, MANIFEST_NAME, Made, entered, printed, produce, wanted
-from proofs.shell.parameters import add_parameters, parameters, refusal
 from proofs.shell.screen import Decided, gist, say, show_verdicts
 from proofs.trusted.certificate import Malformed
 from proofs.trusted.files import parameters_to_json, read
