@@ -454,7 +454,7 @@ FALSE = {
         put("cells", lambda old: old[:-1]),
         put("contraction", F(1)),
         put("contraction", F(1, 10**6)),
-        put("beyond", lambda old: (old[0], old[0] + F(1, 10**4))),
+        _of("beyond", put("points", lambda old: (old[0], old[0] + F(1, 10**4)))),
         _of("arc", offs("phase")),
     ],
     "SticksOnce": [
