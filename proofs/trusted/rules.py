@@ -22,7 +22,6 @@ RULES: Mapping[str, str] = MappingProxyType(
         "formula-series": "kernel.values.series",
         "formula-solution": "kernel.solutions.solution",
         "formula-value": "kernel.values.value",
-        "zero": "kernel.zeros.zero",
         "unique-zero": "kernel.zeros.unique_zero",
         "periodic-orbits": "kernel.periodic.periodic_orbits",
         "periodic-orbit": "kernel.cycle.periodic_orbit",
