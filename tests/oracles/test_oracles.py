@@ -9,8 +9,7 @@ from types import SimpleNamespace
 import pytest
 
 from tests.once import once
-from tests.oracles.adapter import parameters, view
-from tests.oracles.judge import judge, judge_of
+from tests.oracles.judge import judge, judge_of, parameters, view
 from tests.oracles.motion import TURN, ball
 from tests.oracles.plastic import between, lifted
 from tests.oracles.sources import (
