@@ -21,8 +21,7 @@ from proofs.trusted.paper.s34_circle.cycles import Cycles, touching
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts
 from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
 from proofs.trusted.parameters import PAPER
-from tests.oracles.adapter import view
-from tests.oracles.judge import oracle
+from tests.oracles.judge import oracle, view
 from tests.oracles.laps import graze
 from tests.proofs.trusted.paper.steps import add, derive, edited, evidence, known_of
 
