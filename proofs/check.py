@@ -204,7 +204,7 @@ def _mapped(
 ) -> Iterator[Any]:
     """Do as `map`, in a pool, reading few lines ahead: an atlas may be larger than the memory."""
     left = iter(unread)
-    ahead: deque[Future[tuple[list[Any], float]]] = deque()
+    ahead: deque[Future[tuple[list[Any], int]]] = deque()
     while (chunk := list(islice(left, _CHUNK))) or ahead:
         if chunk:
             ahead.append(pool.submit(_each, work, check_one, chunk))
@@ -214,7 +214,7 @@ def _mapped(
             yield from done
 
 
-def _each(work: int, check_one: Callable[[Any], Any], chunk: list[Any]) -> tuple[list[Any], float]:
+def _each(work: int, check_one: Callable[[Any], Any], chunk: list[Any]) -> tuple[list[Any], int]:
     """Return what is found of some lines, and the work that it took."""
     with metered(work) as meter:
         return [check_one(each) for each in chunk], meter.spent

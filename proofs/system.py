@@ -152,7 +152,7 @@ class System(Map):
     def tube(self, until: Ends, **state: Ends) -> Any:
         """Enclose the solutions at all times up to one, as far as is proved: `methods.tubes.Tube`.
 
-        Beside `flow` it has no certificate; `report.figures.tube.drawn` is its picture.
+        Beside `flow` it has no certificate; `report.figures.portrait.drawn_tube` is its picture.
         """
         from proofs.methods.tubes import tube
 

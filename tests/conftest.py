@@ -10,7 +10,7 @@ import pytest
 from platformdirs import user_cache_path
 
 from tests import once
-from tests.effort import EFFORT, examples
+from tests.once import EFFORT, examples
 
 
 def pytest_configure(config):

@@ -1,5 +1,6 @@
-"""What takes long is made once in a run of the tests, by whichever worker asks for it first."""
+"""What takes long is made once in a run, by the worker that asks first; how much is tried."""
 
+import dataclasses
 import fcntl
 import hashlib
 import json
@@ -56,3 +57,21 @@ def report(name):
     from proofs.trusted.verify import check
 
     return check((REPORTS / f"{name}.json").read_text(encoding="utf-8"))
+
+
+# -- how much a property test tries ----------------------------------------------------------------
+
+
+@dataclasses.dataclass
+class Effort:
+    """Set once, before tests are collected."""
+
+    quick: bool = False
+
+
+EFFORT = Effort()
+
+
+def examples(count, at_length=None):
+    """How many to try: `at_length` in the whole suite, where it is given; else `count`."""
+    return max(count // 5, 5) if EFFORT.quick else at_length or count

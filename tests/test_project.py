@@ -60,6 +60,7 @@ def test_what_the_packages_read_is_installed_with_them():
 
 
 def test_the_readme_s_table_names_things_that_exist():
+    from proofs.motion import landing
     from proofs.search import image
     from proofs.trusted import equations
     from proofs.trusted.parameters import Parameters
@@ -69,7 +70,7 @@ def test_the_readme_s_table_names_things_that_exist():
     )
     assert {"lift", "rate", "side"} <= set(equations.Launch._fields)
     assert callable(equations.gap) and callable(equations.slope)
-    assert callable(image.separation_phase) and callable(image.image)
+    assert callable(landing.separation_phase) and callable(image.image)
 
 
 def test_the_tools_forget_nothing_in_the_tree():

@@ -18,11 +18,10 @@ from proofs.benchmark.slopes import ETA, MONOTONE, NU, Work, bounds, first_impac
 from proofs.motion.marching import march
 from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
-from proofs.motion.witness import HORIZON, FlightBox, Seen, locate
-from proofs.motion.witness import march as impacts
+from proofs.motion.witness import HORIZON, Flights
 from proofs.search.image import Image, image
+from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.enclose import enclosed
-from proofs.trusted.numbers import COVER_BITS
 from proofs.trusted.oscillator import PlasticMap
 
 SYSTEM = System(ETA, NU)
@@ -60,8 +59,9 @@ def loss(slopes: Sequence[Range]) -> float:
     return float(min(losses)) if min(losses) < 0 else float(max(losses))
 
 
-def _flights(phases: Range) -> FlightBox:
-    return FlightBox.plastic(SYSTEM.place, phases)
+def _before(phases: Range) -> list[float]:
+    """Return times up to the window of the impacts, between which the gap is > 0."""
+    return [float(t) for t in Flights.plastic(Motion(SYSTEM.place, phases)).times((2,))[:-1]]
 
 
 @cache
@@ -79,7 +79,6 @@ def _opened(low: float, high: float) -> tuple[float, float]:
 
 def work(domain: Range, boxes: int) -> Work:
     """Return the work of one domain, on times before every impact that the lemmas find."""
-    seen = impacts(_flights(domain), COVER_BITS)
     map_ = PlasticMap(SYSTEM.place)
     low, high = domain
     cuts = [float_down(low), *np.linspace(float(low), float(high), boxes + 1)[1:-1], float_up(high)]
@@ -87,12 +86,9 @@ def work(domain: Range, boxes: int) -> Work:
     times = [map_.impact(enclosed((ends,), _SIGN_BITS)).range for ends in pairwise(exact)]
     brackets = [_opened(float(x), float(y)) for x, y in times]
     centres = [_about((x + y) / 2) for x, y in pairwise(cuts)]
-    return Work(domain, cuts, _grid(seen), brackets, centres, [*map(_about, map(float, domain))])
-
-
-def _grid(seen: Seen) -> list[float]:
-    """Return the times before the window of an impact."""
-    return [float(time) for time in seen.excluded]
+    return Work(
+        domain, cuts, _before(domain), brackets, centres, [*map(_about, map(float, domain))]
+    )
 
 
 def _about(phase: float) -> float:
@@ -166,7 +162,7 @@ def flights(library: str, digits: float) -> float:
 @cache
 def _given(phase: Fraction) -> tuple[list[float], float]:
     """Return times before the impact, and about the time of it."""
-    return _grid(locate(_flights((phase, phase)))), _about(float(phase))
+    return _before((phase, phase)), _about(float(phase))
 
 
 def marches(step: float) -> float:

@@ -30,7 +30,7 @@ from proofs.trusted.kernel.periodic import Closing, Search
 from proofs.trusted.numbers import Range, show, within
 
 _STARTS = 400  # points at random for each period
-_SMALLEST = 2.0**-24  # side of a tube from which Newton's method begins, as a part of the box's
+_SMALLEST = 1 << 40  # side of a tube from which Newton's method begins, in 2^-64 of the box's
 _MOST_TUBES = 50_000
 _STEPS, _BITS = 30, 160  # of Newton's method
 _PLACE, _RADIUS = Fraction(1, 10**26), Fraction(1, 10**22)  # of points

@@ -205,7 +205,7 @@ def find_horseshoe(file: Derivation, function: str, candidates: Candidates) -> l
     """
     power, reason = candidates.power, "no candidate is seen"
     sampled = Sampled(file.map(function)).iterate(power)
-    with metered(_WORK * candidates.share):
+    with metered(int(_WORK * candidates.share)):
         for sets in candidates.frames(sampled):
             try:
                 with file.undone():

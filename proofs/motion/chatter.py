@@ -16,9 +16,9 @@ from proofs.trusted.equations import clock, gap, launch, launch_acceleration
 from proofs.trusted.flights import Motion, lifted
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.numbers import COVER_BITS, Range
-from proofs.trusted.paper.s34_circle.bounces import State, bounce, kicked, push
+from proofs.trusted.paper.s34_circle.bounces import Box, State, bounce, kicked, push
 from proofs.trusted.paper.s34_circle.landing import Separation
-from proofs.trusted.paper.s34_circle.persistence import Box, Cell
+from proofs.trusted.paper.s34_circle.persistence import Cell
 from proofs.trusted.parameters import Place
 
 BITS = 256  # of states that are followed far
@@ -53,18 +53,22 @@ class Pushing:
     bits: int = COVER_BITS
     grid: int = 2**24
 
-    def settle(self, epsilon: Range, phases: Range, speeds: Range) -> Cell:
+    def settle(
+        self, epsilon: Range, phases: Range, speeds: Range, leave: Range | None = None
+    ) -> Cell:
         """Prove that impacts at these phases, with these speeds before, end in rest before `last`.
 
-        Bounces are enclosed one by one until Lemma 2 applies; Undecided if a bounce may leave the
-        arc, or the bounces become so many that it will not apply.
+        Bounces are enclosed one by one until Lemma 2 applies, or the mass flies at all phases of
+        `leave`; Undecided if a bounce may leave the arc, or they become so many that neither is so.
         """
         bounces: list[Range] = []
         while len(bounces) < _MOST_BOUNCES:
             kicks = epsilon[0] * speeds[0], epsilon[1] * speeds[1]
             ending = self.ending(epsilon[1], phases, kicks[1])
             if ending is not None:
-                return Cell(epsilon, bounces, *ending)
+                return Cell(epsilon, bounces, ending)
+            if leave is not None and self.flies(phases, kicks, leave):
+                return Cell(epsilon, bounces, None)
             time, (phases, speeds) = self.bounce(phases, kicks)
             bounces.append(time)
         raise Undecided(f"{_MOST_BOUNCES} bounces and no rest")

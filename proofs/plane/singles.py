@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
-from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, NamedTuple
 
@@ -12,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from intervals import Undecided
-from proofs.motion.witness import FlightBox
+from proofs.motion.witness import Flights
 from proofs.plane.steps import Steps, times_for
 from proofs.trusted.certificate import texts
 from proofs.trusted.equations import Clock, Launch, gap, launch_acceleration
-from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper.beyond.singles import Numbers, Part, launched, parts, ratios, solution
 from proofs.trusted.parameters import Place
 
@@ -125,35 +124,16 @@ def _stable(box: Place, n: int) -> dict[str, Any]:
 
 def _flight(every: list[Part]) -> list[Fraction]:
     """Return times for the flights of some parts: those of each, with one window for all."""
-    flown = [
-        times_for(
-            SingleFlights(part.at.sides, (Fraction(0),) * 2, True, part=part), float(part.whole[1])
-        )
-        for part in every
-    ]
+    flown = [flight_times(part) for part in every]
     begin, end = min(times[-2] for times in flown), max(times[-1] for times in flown)
     return sorted({begin, end, *(time for times in flown for time in times if time < begin)})
 
 
+def flight_times(part: Part) -> list[Fraction]:
+    """Return times for the flights of one part."""
+    eta = part.start.eta
+    return times_for(Flights(part.gap, [eta]), (2, 1), float(part.whole[1]))
+
+
 def _entry(n: int, cuts: int, times: list[Fraction]) -> dict[str, Any]:
     return {"n": str(n), "cuts": str(cuts), "times": texts(times)}
-
-
-@dataclass(frozen=True)
-class SingleFlights(FlightBox):
-    """The flights of the orbits in a part, launched as the checker encloses it."""
-
-    part: Part = field(kw_only=True)
-
-    @property
-    def orders(self) -> tuple[int, ...]:
-        """Which derivative of the gap is > 0 at launch."""
-        return (2,) if launch_acceleration(self.part.start).lo > 0 else (1,)
-
-    def start(self, bits: int) -> Launch:
-        """Return the launch states in numbers of a precision."""
-        side, *numbers = self.part.start
-        return Launch(
-            side,
-            *(None if x is None else Enclosure.of(x.range[0], x.range[1], bits) for x in numbers),
-        )

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from bisect import bisect
-from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import product
 from typing import Any
 
 from intervals import Undecided
 from intervals.cover import halves
-from proofs.motion.witness import BLIND, FlightBox, march
+from proofs.motion.witness import Flights
 from proofs.trusted.certificate import SCHEMA
-from proofs.trusted.equations import launch_acceleration
 from proofs.trusted.files import box_to_json, render
 from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -26,7 +25,6 @@ from proofs.trusted.windows import BITS
 
 _NOT_SEEN = "no transversal first impact is seen"
 _HALVINGS = 1  # of phases whose flights are too different
-_FINEST = Fraction(1, 8), Fraction(1, 64), Fraction(1, 512)  # steps of time
 _LATER = Fraction(11, 2)  # than the last impact that is seen, at most
 _CUTS, _FALLS = 9, 4  # halvings of the window of an impact: for a bracket, and until the gap falls
 _SHARES = (
@@ -79,23 +77,21 @@ class Steps:
         )
 
 
-def times_for(flights: FlightBox, latest: float) -> list[Fraction]:
+def times_for(flights: Flights, orders: Sequence[int], latest: float) -> list[Fraction]:
     """Return times for `first_windows`, of flights that end at about `latest` at most.
 
-    Raises Undecided where none seem to prove a transversal first impact.
+    orders: of which one derivative of the gap is > 0 at launch. Raises Undecided where none seem to
+    prove a transversal first impact.
     """
-    pushed = launch_acceleration(flights.start(COVER_BITS)).lo >= 0
-    flights = replace(flights, separating=flights.separating or pushed)
-    gap_of = flights.gap_of(COVER_BITS)
-    for finest in _FINEST:
-        with suppress(Undecided, *BLIND):
-            seen = march(flights, COVER_BITS, Fraction(latest) + _LATER, finest, single=True)
-            begin, end = seen.windows[0]
-            last = impact_times(gap_of, (begin, end), _CUTS)[1]
-            for share in _SHARES:
-                soon = last + (end - begin) * share
-                if falls(gap_of, (begin, soon), _FALLS):
-                    return [*seen.times[:-1], soon]
+    try:
+        *times, begin, end = flights.times(orders, Fraction(latest) + _LATER)
+    except Unproved:
+        raise Undecided(_NOT_SEEN) from None
+    last = impact_times(flights.gap_of, (begin, end), _CUTS)[1]
+    for share in _SHARES:
+        soon = last + (end - begin) * share
+        if falls(flights.gap_of, (begin, soon), _FALLS):
+            return [*times, begin, soon]
     raise Undecided(_NOT_SEEN)
 
 

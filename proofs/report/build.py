@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 from types import MappingProxyType
@@ -11,10 +12,10 @@ from intervals import Undecided
 from proofs.report import graph
 from proofs.report.atlases import atlases
 from proofs.report.checker import checker
+from proofs.report.figures import figures as all_figures
 from proofs.report.figures.figure import Certificates, Documents, Figure
 from proofs.report.findings import findings
 from proofs.report.ledger import ledger
-from proofs.report.pictures import pictures
 from proofs.report.theorem import theorem
 from proofs.trusted.kernel.context import Context
 
@@ -49,31 +50,40 @@ def built(
     documents = Certificates(folder, derived)
     tell("certificates")
     claims = findings(folder, documents)
-    shown = pictures(documents, [claim.id for claim in claims.claims])
-    figures = [] if only_text else [picture.figure for picture in shown]
-    texts = iter(each(_svg, figures, [documents[figure.certificate] for figure in figures]))
-    files = {"ledger.md": ledger(claims, shown), "theorem.md": theorem(claims)}
+    figures = shown(documents, [claim.id for claim in claims.claims])
+    texts = [] if only_text else each(_svg, figures, [documents[x.certificate] for x in figures])
+    files = {"ledger.md": ledger(claims, figures), "theorem.md": theorem(claims)}
     files["figures/dependencies.svg"] = graph.svg(claims)
     if only_text:
         return files
     from proofs.report.html import page  # needs what may be missing
 
     drawn = {}
-    for picture in shown:
-        tell(picture.title)
-        if (text := next(texts)) is not None:
-            drawn[picture.name] = text
+    for figure, text in zip(figures, texts, strict=True):
+        tell(figure.title)
+        if text is not None:
+            drawn[figure.name] = text
     files |= {f"figures/{name}.svg": text for name, text in drawn.items()}
     tell("index.html")
-    shown = [picture for picture in shown if picture.name in drawn]
+    figures = [figure for figure in figures if figure.name in drawn]
     maps = atlases(folder)
-    files["index.html"] = page(claims, shown, drawn, atlases=maps)
+    files["index.html"] = page(claims, figures, drawn, atlases=maps)
     if pyodide is not None:
         certificates = dict.fromkeys(claim.file for claim in claims.claims)
         files["checker.html"] = page(
-            claims, shown, drawn, checker(pyodide, folder, certificates), maps
+            claims, figures, drawn, checker(pyodide, folder, certificates), maps
         )
     return files
+
+
+def shown(documents: Documents, claims: Iterable[str]) -> list[Figure]:
+    """Return the report's figures for which there are certificates, with those of the claims."""
+    present = set(claims)
+    return [
+        replace(figure, claims=tuple(claim for claim in figure.claims if claim in present))
+        for figure in all_figures()
+        if present.intersection(figure.claims) and figure.certificate in documents
+    ]
 
 
 def _svg(figure: Figure, proved: Context) -> str | None:

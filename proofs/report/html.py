@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -16,9 +17,9 @@ from proofs.report.atlases import Atlas
 from proofs.report.checker import Checker
 from proofs.report.dependencies import RESTS
 from proofs.report.differences import marked
+from proofs.report.figures.figure import Figure
 from proofs.report.findings import Finding, Findings, Statement, Step
 from proofs.report.formulas import lines, mathml
-from proofs.report.inline import inlined
 from proofs.report.layout import Block, block, enclosure, sentences
 from proofs.report.names import (
     DEFINITIONS,
@@ -29,7 +30,6 @@ from proofs.report.names import (
     verdict_name,
 )
 from proofs.report.page import quantity_name
-from proofs.report.pictures import Picture
 from proofs.report.specification import rule_theorem
 from proofs.report.typeset import html
 from proofs.trusted.kernel.conclusion import Conclusion
@@ -44,7 +44,7 @@ _LONGEST = 1200  # characters of a formula that is set; longer ones are shown as
 
 def page(
     findings: Findings,
-    figures: Sequence[Picture],
+    figures: Sequence[Figure],
     drawn: Mapping[str, str],
     checker: Checker | None = None,
     atlases: Sequence[Atlas] = (),
@@ -55,7 +55,7 @@ def page(
     """
     return rendered(
         "page.html",
-        view=View(findings, figures, inlined(drawn)),
+        view=View(findings, figures, drawn),
         RESTS=RESTS,
         title=PAPER_TITLE,
         policy=_POLICY_OF_CHECKER if checker else POLICY,
@@ -115,7 +115,7 @@ class View:
     """What the templates ask for."""
 
     findings: Findings
-    figures: Sequence[Picture]
+    figures: Sequence[Figure]
     drawn: Mapping[str, str]
 
     @cached_property
@@ -232,7 +232,7 @@ class View:
             if each.id in RESTS and claim.id in RESTS[each.id].on
         ]
 
-    def figures_of(self, claim: Finding) -> list[Picture]:
+    def figures_of(self, claim: Finding) -> list[Figure]:
         """Return the figures that belong to a claim."""
         return [figure for figure in self.figures if claim.id in figure.claims]
 
@@ -258,24 +258,24 @@ class View:
         return [(rule, rule_theorem(rule)) for rule in dict.fromkeys(step.rule for step in steps)]
 
     @property
-    def main(self) -> Picture | None:
+    def main(self) -> Figure | None:
         """The figure for the first screen: of the headline theorem."""
         for figure in self.figures:
             if self.headline is not None and self.headline.claim in figure.claims:
                 return figure
         return None
 
-    def figures_in(self, section: str) -> list[Picture]:
+    def figures_in(self, section: str) -> list[Figure]:
         """Return the figures of a section, but for the one on the first screen."""
         return [x for x in self.figures if x.section == section and x != self.main]
 
-    def chips(self, figure: Picture) -> list[Finding]:
+    def chips(self, figure: Figure) -> list[Finding]:
         """Return the claims of a figure."""
         return [claim for claim in self.findings.claims if claim.id in figure.claims]
 
-    def picture(self, figure: Picture) -> Markup:
-        """Return a figure as SVG."""
-        return Markup(self.drawn[figure.name])
+    def picture(self, figure: Figure) -> Markup:
+        """Return a figure as SVG; its title stands beside it."""
+        return Markup(re.sub("<title>.*</title>\n", "", self.drawn[figure.name], count=1))
 
 
 def formula(conclusion: Conclusion) -> Markup:

@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from proofs.report.dependencies import RESTS
+from proofs.report.figures.figure import Figure
 from proofs.report.findings import Finding, Findings, Statement
 from proofs.report.graph import MARKS, falling
 from proofs.report.markup import table
 from proofs.report.names import DEFINITIONS, PAPER_TITLE, summary, tally, verdict_name
-from proofs.report.pictures import Picture
 from proofs.report.typeset import markdown
 from proofs.trusted.verdicts import Verdict
 
 
-def ledger(findings: Findings, pictures: Sequence[Picture] = ()) -> str:
+def ledger(findings: Findings, figures: Sequence[Figure] = ()) -> str:
     """Return the page on all claims."""
     sections = list(findings.sections())
     parts = [
@@ -48,7 +48,7 @@ def ledger(findings: Findings, pictures: Sequence[Picture] = ()) -> str:
         )
         parts += [
             f"![{picture.title}](figures/{picture.name}.svg)\n\n{_caption(findings, picture)}"
-            for picture in pictures
+            for picture in figures
             if picture.section == key
         ]
         for claim in claims:
@@ -115,14 +115,14 @@ def _falls(findings: Findings) -> list[str]:
     return [*parts[:2], "\n".join(parts[2:])]
 
 
-def _caption(findings: Findings, picture: Picture) -> str:
+def _caption(findings: Findings, picture: Figure) -> str:
     """Return a title, how to read the figure, and the claims that it belongs to."""
     verdicts = [
         f"{_link(claim)} {_verdict(claim.verdict)}"
         for claim in findings.claims
         if claim.id in picture.claims
     ]
-    shows = markdown(picture.figure.shows)
+    shows = markdown(picture.shows)
     return f"**{markdown(picture.title)}.** {shows} Claims: {', '.join(verdicts)}."
 
 

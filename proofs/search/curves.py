@@ -17,7 +17,7 @@ from intervals import Interval, Undecided
 from proofs.methods.arcs import follow, thin
 from proofs.methods.formulas import enclosed
 from proofs.methods.lemmas import krawczyk, newton, require_zero, written
-from proofs.motion.single_flight import touching_once
+from proofs.motion.witness import touching_once
 from proofs.search.derivations import Steps
 from proofs.search.evidence import FAILED, Evidence
 from proofs.search.request import Request, proving

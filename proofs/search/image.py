@@ -13,32 +13,26 @@ from intervals import Undecided
 from intervals.cover import halves
 from proofs.methods.extremes import extremes
 from proofs.motion.digits import phase_after, to_digits
-from proofs.motion.landing import separation, separation_phase
+from proofs.motion.landing import separation
 from proofs.motion.system import System
-from proofs.motion.witness import (
-    HORIZON,
-    MOST_BITS,
-    FlightBox,
-    NoImpact,
-    Unsettled,
-    locate,
-    march,
-)
+from proofs.motion.witness import HORIZON, Flights, NoImpact
 from proofs.search.evidence import FAILED, Proved
 from proofs.search.steps import Prover
 from proofs.trusted.equations import launch_acceleration
-from proofs.trusted.flights import Motion
+from proofs.trusted.flights import Motion, whole_turns
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.enclose import enclosed
 from proofs.trusted.kernel.firstzero import NoFirstZero
 from proofs.trusted.numbers import COVER_BITS, Range, hull
+from proofs.trusted.oscillator import PlasticMap
 
 _NOT_CUT = (
     "the interval seems to contain a grazing phase, or to reach too near to where sticking begins"
 )
 _PIECES = 32  # twelve digits take a dozen, but next to the onset of sticking any number
 _ROOM = 30  # bits beyond those that are asked for
-_PRECISIONS = (COVER_BITS, 2 * COVER_BITS, 4 * COVER_BITS, MOST_BITS)
-_COARSE = Fraction(1, 2**12)  # the finest time step where only a set of images is wanted
+_PRECISIONS = tuple(COVER_BITS << k for k in range(4))
+_LITTLE = Fraction(1, 1000)  # before a touch
 
 
 @dataclass(frozen=True)
@@ -113,21 +107,58 @@ def _sticks(prover: Prover, phases: Range) -> bool | None:
 
 
 def _at_point(prover: Prover, phases: Range) -> Image:
-    locate(prover.flights(phases), horizon=prover.horizon)  # or it says why there is none
-
     def prove() -> Proved:
         return prover.claimed(prover.point(phases[0])[0])
 
     def at_precision(bits: int) -> Image:
-        x = enclosed((phases,), bits + _ROOM)
-        time, slope = prover.impact_map.impact(x).range, prover.impact_map.jacobian(x)[0][0].range
+        time, slope = _flight(prover, phases, bits + _ROOM)
         arrival = phase_after(phases[0], time, bits + _ROOM)
         return Image(time, arrival, slope, sticking=False, prove=prove)
 
-    return to_digits(prover.digits, at_precision, lambda x: (x.flight, x.phase, x.slope))
+    try:
+        final = (NoImpact,)
+        return to_digits(prover.digits, at_precision, lambda x: (x.flight, x.phase, x.slope), final)
+    except NoImpact:
+        raise
+    except Undecided as failure:
+        raise Undecided(_touch(prover, phases) or str(failure)) from None
 
 
-def _after_sticking(prover: Prover, phases: Range, digits: int | None = None) -> Image:
+def _flight(prover: Prover, phases: Range, bits: int) -> tuple[Range, Range]:
+    """Enclose the time of the impact, and f'."""
+    x, f = enclosed((phases,), bits), prover.impact_map
+    try:
+        return f.impact(x).range, f.jacobian(x)[0][0].range
+    except NoFirstZero:
+        raise _none(prover) from None
+
+
+def _none(prover: Prover) -> NoImpact:
+    return NoImpact(f"there is no impact up to time {float(prover.horizon):g} (the horizon)")
+
+
+def _touch(prover: Prover, phases: Range) -> str:
+    """Say that a flight without an earlier impact touches the table; "" where none is proved.
+
+    eta = p/q: after q turns of the table mass and table are where they were, as fast.
+    """
+    turns = prover.system.eta.denominator
+    latest = whole_turns(turns, COVER_BITS)[0] - _LITTLE
+    if latest > prover.horizon:
+        return ""
+    try:
+        PlasticMap(prover.at, latest).impact(enclosed((phases,), COVER_BITS))
+    except NoFirstZero:
+        return (
+            f"at time 2 pi {turns} mass and table are where they were at the launch, and touch "
+            "without relative velocity if there was no impact just before"
+        )
+    except Unproved:
+        pass
+    return ""
+
+
+def _after_sticking(prover: Prover, phases: Range) -> Image:
     zero = (Fraction(0), Fraction(0))
 
     def at_precision(bits: int) -> Image:
@@ -142,7 +173,7 @@ def _after_sticking(prover: Prover, phases: Range, digits: int | None = None) ->
         if phases[0] == phases[1] and image.dwell is not None:  # else the dwell times differ
             yield image.dwell
 
-    return to_digits(digits or prover.digits, at_precision, bounds, final=(NoImpact,))
+    return to_digits(prover.digits, at_precision, bounds, final=(NoImpact,))
 
 
 def _dwell(phases: Range, leave: Range, bits: int) -> Range:
@@ -158,11 +189,7 @@ def _over_interval(prover: Prover, phases: Range) -> Image:
     f = prover.impact_map
 
     def bounds_at(x: Fraction, bits: int) -> tuple[Range, Range]:
-        point = enclosed(((x, x),), bits)
-        try:
-            return f.impact(point).range, f.jacobian(point)[0][0].range
-        except NoFirstZero as error:
-            raise NoImpact(str(error)) from None
+        return _flight(prover, (x, x), bits)
 
     def at_ends(bits: int) -> tuple[int, list[Range]]:
         more = bits + _ROOM
@@ -207,47 +234,48 @@ def _possible(prover: Prover, phases: Range, reason: str, cuts: int = 5) -> Poss
     parts = [phases]
     for _ in range(cuts):
         parts = [half for part in parts for half in halves(part)]
-    pairs: list[tuple[Range, Range]] = []
-    for part in parts:
-        sticks = _sticks(prover, part)
+    images: list[tuple[Range, Range]] = []
+    fates = [(part, _sticks(prover, part)) for part in parts]
+    if any(sticks is not False for _, sticks in fates):
+        _, rest = prover.derive("separation", separation(prover.system, 2 * COVER_BITS))
+        images.append((rest.time, phase_after(Fraction(0), rest.arrival, COVER_BITS)))
+    for part, sticks in fates:
         if sticks:
-            rest = _after_sticking(prover, part, 12)
-            pairs.append((rest.flight, rest.phase))
             continue
-        first = part if sticks is False else _leaving(prover.system, part)
-        flights = FlightBox.plastic(prover.at, first, separating=sticks is None)
-        for low, high in _windows(flights, prover.horizon):
+        first = part if sticks is False else _leaving(rest.phase, part)
+        if first[0] > first[1]:
+            continue
+        for low, high in _windows(prover, first):
             arrival = phase_after(Fraction(0), (first[0] + low, first[1] + high), COVER_BITS)
-            pairs.append(((low, high), arrival))
-    return PossibleImages(_merged(pairs), reason)
+            images.append(((low, high), arrival))
+    return PossibleImages(_merged(images), reason)
 
 
-def _windows(flights: FlightBox, horizon: Fraction) -> tuple[Range, ...]:
-    """Prove windows of the first impacts, at the least precision that has an answer.
+def _leaving(leave: Range, part: Range) -> Range:
+    """Return the phases of a part beyond a bracket of the separation, that it contains.
 
-    At a distance w from a grazing phase the gap dips below 0 for a time of the order sqrt(w).
+    From the bracket itself the flights are those of the separation.
     """
-    width = flights.phases[1] - flights.phases[0]
-    finest = max(Fraction(1, 8 << (1 / width).__ceil__().bit_length() // 2), _COARSE)
-    for bits in _PRECISIONS[:-1]:
-        try:
-            return march(flights, bits, horizon, finest).proved_windows()
-        except (NoImpact, Unsettled):
-            raise
-        except FAILED:
-            continue
-    return march(flights, MOST_BITS, horizon, finest).proved_windows()
-
-
-def _leaving(system: System, part: Range) -> Range:
-    """Return the launch phases of a part that contains the separation phase: [phi_s, part[1]]."""
-    leave = separation_phase(system, MOST_BITS)
-    if leave[1] < part[0] or part[1] < leave[0]:
+    if part[1] < leave[0] or leave[1] < part[0]:
         raise Undecided(
             "the interval contains the phase at which sticking begins: flights there are as "
             "short as one likes, and f jumps; take an interval on one side of it"
         )
-    return leave[0], max(part[1], leave[1])
+    return leave[1], part[1]
+
+
+def _windows(prover: Prover, phases: Range) -> list[Range]:
+    """Prove windows of the first impacts, at the least precision that has an answer."""
+    reason = ""
+    for bits in _PRECISIONS:
+        try:
+            search = Flights.plastic(Motion(prover.at, phases, bits)).search(2)
+            return [*search.windows(prover.horizon)]
+        except NoFirstZero:
+            raise _none(prover) from None
+        except Unproved as failure:
+            reason = str(failure)
+    raise Undecided(reason)
 
 
 def _merged(images: list[tuple[Range, Range]]) -> tuple[tuple[Range, Range], ...]:

@@ -73,7 +73,7 @@ class Single:
                 break
             ends.append((eta_end(nu, n, FLIP, self.prover.bits), stick))
         return self._derive(
-            "single-eta-windows",
+            "single-windows",
             nu=str(nu),
             low=str(low),
             ends=[texts([*flip, *stick]) for flip, stick in ends],
@@ -94,7 +94,7 @@ class Single:
         later = eta_end(nu, 1, SADDLE, bits, (3 * _HALF, Fraction(2)))
         graze, touch = graze_end(nu, float(later[1]), bits)
         return self._derive(
-            "single-below-windows",
+            "single-windows",
             nu=str(nu),
             low=str(low),
             ends=[texts([*first, *(last if last[0] < last[1] else ())]) for first, last in ends],
@@ -111,7 +111,7 @@ class Single:
         if None in times:
             raise Undecided("no earlier impact is seen after a long flight")
         return self._derive(
-            "single-nu-windows",
+            "single-windows",
             eta=str(eta),
             above=self._windows(eta, least, (STICK, FLIP)),
             below=self._windows(eta, short, (SADDLE, STICK)),

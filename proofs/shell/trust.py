@@ -31,7 +31,7 @@ class Trust(NamedTuple):
         return f"{self.claim}: to believe this, {lines} lines in {len(self.files)} files: {names}"
 
 
-def trusted_for(source: str, work: float) -> Iterator[Trust]:
+def trusted_for(source: str, work: int) -> Iterator[Trust]:
     """Check each claim of a certificate alone, with the steps that it needs; watch the calls."""
     reader = parse(source)
     document: dict[str, Any] = reader.value
@@ -50,7 +50,7 @@ def trusted_for(source: str, work: float) -> Iterator[Trust]:
         yield Trust(own, _files(json.dumps(alone), work))
 
 
-def _files(source: str, work: float) -> tuple[tuple[str, int], ...]:
+def _files(source: str, work: int) -> tuple[tuple[str, int], ...]:
     """Return the files of the trusted part of which a function is called during a check."""
     _, called = watched(lambda: check(source, work))
     files = sorted(Path(name) for name in called if Path(name).is_relative_to(_FOLDER))

@@ -203,7 +203,7 @@ class Areas(NamedTuple):
 
 def check_atlas(
     lines: Iterable[str],
-    work: float = DEFAULT,
+    work: int = DEFAULT,
     mapped: Callable[..., Iterable[tuple[str, str]]] = map,
 ) -> Areas:
     """Re-derive all cells of an atlas, each from its certificate; return what is proved where.

@@ -7,12 +7,11 @@ statement: the mass is a harmonic oscillator of frequency eta about 0, the table
 frequency 1 about 1, both start at the same place, and their distance vanishes at the impact.
 
 Numbers are anything with + - * / and `sincos()`: Interval, IntervalArray, Jet, the checker's
-own; floats too. Other types (sympy's) are entered in `registered_sincos`.
+own. Other types (floats, sympy's) are entered in `registered_sincos`.
 """
 
 from __future__ import annotations
 
-import math
 from functools import singledispatch
 from typing import Any, NamedTuple
 
@@ -21,8 +20,6 @@ Number = Any
 
 def sincos(x: Number) -> tuple[Number, Number]:
     """Return (sin x, cos x) by the number's own method, else as its type is registered."""
-    if isinstance(x, float):
-        return math.sin(x), math.cos(x)
     own = getattr(x, "sincos", None)
     pair: tuple[Number, Number] = registered_sincos(x) if own is None else own()
     return pair

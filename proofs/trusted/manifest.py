@@ -59,7 +59,7 @@ def checking(file: str) -> str:
     return f"python -I -m proofs.check {file}"
 
 
-def check_manifest(source: str, folder: Path, work: float) -> list[Listed]:
+def check_manifest(source: str, folder: Path, work: int) -> list[Listed]:
     """Check every file that a manifest lists, and its entry; return the claims listed.
 
     An entry has the file's digest and parameters, the commands that make and check it, and what it
@@ -73,7 +73,7 @@ def check_manifest(source: str, folder: Path, work: float) -> list[Listed]:
     return _some(listed, files)
 
 
-def _check_entry(folder: Path, name: str, entry: Reader, work: float) -> Iterator[Listed]:
+def _check_entry(folder: Path, name: str, entry: Reader, work: int) -> Iterator[Listed]:
     digest_of, parameters, made, checked, claims = entry.fields(
         "digest", "parameters", "made", "checked", "claims"
     )
@@ -97,7 +97,7 @@ def _check_entry(folder: Path, name: str, entry: Reader, work: float) -> Iterato
     _same(claims, proved)
 
 
-def check_ledger(source: str, folder: Path, work: float) -> list[Listed]:
+def check_ledger(source: str, folder: Path, work: int) -> list[Listed]:
     """Check that each entry of a ledger is one of the certificate that it names.
 
     Its member `coq`, names of theorems that Coq proves, is Coq's to check.

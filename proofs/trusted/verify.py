@@ -70,7 +70,7 @@ class Report(NamedTuple):
         return self.parameters == PAPER
 
 
-def check(source: str, work: float = DEFAULT) -> Report:
+def check(source: str, work: int = DEFAULT) -> Report:
     """Re-derive everything in a certificate's text, with so much work at most.
 
     Raises Malformed where it is no certificate, Rejected where a step, a bound, a text or a verdict

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
@@ -11,12 +10,14 @@ from proofs.trusted.equations import gap
 from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Dual, Enclosure, Unproved, pi, rational
 from proofs.trusted.kernel.gaps import stays_up
+from proofs.trusted.kernel.operations import atan, sqrt
 from proofs.trusted.numbers import Range, hull
 
 BITS = 80
 DEEPEST = 24  # halvings of an interval of times
 _ZERO = Fraction(0)
 _UNIT = Fraction(1, 2**30)
+_MORE = Fraction(1001, 1000)
 
 
 @dataclass(frozen=True)
@@ -43,23 +44,20 @@ class Meetings:
 
     @classmethod
     def of(cls, motion: Motion) -> Meetings:
-        """Find delta, sigma and tau in floating point, and prove the hypotheses."""
+        """Find delta, sigma and tau, rounded, and prove the hypotheses."""
         start, bits, table = motion.start, motion.bits, motion.nu
         along, across = 1 + start.lift, start.rate / start.eta
-        try:
-            delta = _near(math.atan2(*(float(sum(x.range)) for x in (across, along))))
-            sin, cos = rational(delta, bits).sincos()
-            a, b = along * cos + across * sin, across * cos - along * sin
-            if a.lo <= 0:
-                raise Unproved("the amplitude is not proved positive")
-            size = max(abs(b.lo), abs(b.hi))
-            sideways = Enclosure(size, size, bits)
-            amplitude = a + sideways * sideways / a / 2  # sqrt(a^2 + b^2) <= a + b^2 / (2 a)
-            if amplitude.hi < (1 + table).lo:
-                raise Unproved("the mass never meets the table")
-            return cls(motion, delta, _sigma(amplitude, table), _tau(a, sideways, 1 + table))
-        except (OverflowError, ZeroDivisionError):
-            raise Unproved("numbers beyond floating point") from None
+        delta = _near(atan(_middle(across) / _middle(along)))
+        sin, cos = rational(delta, bits).sincos()
+        a, b = along * cos + across * sin, across * cos - along * sin
+        if a.lo <= 0:
+            raise Unproved("the amplitude is not proved positive")
+        size = max(abs(b.lo), abs(b.hi))
+        sideways = Enclosure(size, size, bits)
+        amplitude = a + sideways * sideways / a / 2  # sqrt(a^2 + b^2) <= a + b^2 / (2 a)
+        if amplitude.hi < (1 + table).lo:
+            raise Unproved("the mass never meets the table")
+        return cls(motion, delta, _sigma(amplitude, table), _tau(a, sideways, 1 + table))
 
     def window(self, turn: int) -> Range:
         """Return the times of all launches at which |s - 2 pi turn| <= sigma."""
@@ -83,25 +81,36 @@ class Meetings:
             low, high = low + (eta.numerator << bits), high + (eta.numerator << bits)
 
 
-def _near(value: float) -> Fraction:
-    return round(Fraction(value) / _UNIT) * _UNIT
+def _middle(x: Enclosure) -> Enclosure:
+    return Enclosure(m := (x.lo + x.hi) >> 1, m, x.bits)
+
+
+def _near(value: Enclosure) -> Fraction:
+    return round(sum(value.range) / (2 * _UNIT)) * _UNIT
+
+
+def _positive(x: Enclosure) -> Enclosure:
+    return Enclosure(max(0, x.lo), max(0, x.hi), x.bits)
 
 
 def _sigma(amplitude: Enclosure, nu: Enclosure) -> Fraction:
     """Return a sigma < pi with amplitude < 1 + nu cos(sigma), or 4 if there seems to be none."""
-    ratio = (float(amplitude.range[1]) - 1) / float(nu.range[0])
-    if ratio <= -1:
+    high, deep = (Enclosure(end, end, nu.bits) for end in (amplitude.hi, -nu.lo))
+    down, up = deep - 1 + high, deep + 1 - high  # -nu (1 -+ cos(sigma)), about
+    if up.lo <= 0:
         return Fraction(4)
-    sigma = _near(1.001 * math.acos(min(ratio, 1.0))) + 4 * _UNIT
+    sigma = _near(2 * atan(sqrt(_positive(down) / up)) * _MORE) + 4 * _UNIT
     margin = 1 + nu * rational(sigma, nu.bits).sincos()[1] - amplitude
     return sigma if margin.lo > 0 and sigma < 3 else Fraction(4)
 
 
 def _tau(a: Enclosure, b: Enclosure, deepest: Enclosure) -> Fraction:
     """Return a tau as in `Meetings`, or 4 if there seems to be none."""
-    large, small, least = float(a.range[1]), float(b.range[1]), float(deepest.range[0])
-    angle = math.acos(min(1.0, least / math.hypot(large, small))) + math.atan2(small, large)
-    tau = _near(1.001 * angle) + 4 * _UNIT
+    if deepest.lo <= 0:
+        return Fraction(4)
+    large, small, least = (Enclosure(x, x, a.bits) for x in (a.hi, b.hi, deepest.lo))
+    angle = atan(sqrt(_positive(large * large + small * small - least * least)) / least)
+    tau = _near((angle + atan(small / large)) * _MORE) + 4 * _UNIT
     sin, cos = rational(tau, a.bits).sincos()
     decreasing = b * cos - a * sin
     high = a * cos + b * sin - deepest

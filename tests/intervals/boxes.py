@@ -6,8 +6,8 @@ from fractions import Fraction
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.effort import examples
 from tests.intervals.oracle import exponent, pi_bounds, round_down, round_up, ulp
+from tests.once import examples
 
 
 def for_all(*strategies, tries=50, at_length=None):

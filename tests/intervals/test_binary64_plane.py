@@ -8,8 +8,8 @@ import pytest
 
 from intervals import DomainError
 from intervals.elementary import binary64
-from tests.effort import examples
 from tests.intervals.binary64_oracle import ETA, MAX, distances, plane_points, points, rows
+from tests.once import examples
 
 COUNT = examples(4500, 100_000)
 

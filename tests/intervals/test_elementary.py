@@ -14,9 +14,9 @@ from intervals.elementary.arctan import angle_fixed
 from intervals.elementary.constants import arc_of_ratio, log2_fixed, log10_fixed, pi_fixed
 from intervals.elementary.explog import exp_fixed, log_fixed
 from intervals.elementary.trig import sincos_fixed
-from tests.effort import EFFORT
 from tests.intervals.boxes import for_all
 from tests.intervals.oracle import encloses, evaluate, pi_bounds, quarter_turns
+from tests.once import EFFORT
 
 SMALL = 4  # the largest error bound that is met here; a unit is 2^-bits
 

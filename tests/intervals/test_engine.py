@@ -12,7 +12,7 @@ import pytest
 
 from intervals import Interval, _engine
 from intervals.functions import DOMAINS
-from tests.effort import examples
+from tests.once import examples
 
 BY_FLINT = _engine.fastest(Interval)
 FUNCTIONS = [

@@ -10,8 +10,8 @@ import pytest
 from intervals import Undecided, linalg
 from intervals.array import IntervalArray
 from intervals.linalg import SingularMatrix, _real, _square, eigenvalues, inverse, solve
-from tests.effort import examples
 from tests.intervals import oracle
+from tests.once import examples
 
 
 def rational(rows):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tests.effort import EFFORT
+from tests.once import EFFORT
 from tests.oracles.flights import Simulation, system_of_record
 
 LONG, SHORT = (20 if EFFORT.quick else 80), 1 / 200  # times

@@ -102,6 +102,10 @@ def _shares(rng):
 
 def eta_windows(view, rng):
     """Stable orbits with n periods exactly for eta between the ends."""
+    return (_above if view.late is None else _below)(view, rng)
+
+
+def _above(view, rng):
     told, ends = [], view.ends
     if not (0 < view.nu < 1 and 0 < view.low < 1):
         return ["nu, or the least eta, is not between 0 and 1"]
@@ -134,8 +138,8 @@ def eta_windows(view, rng):
     return told
 
 
-def below_windows(view, rng):
-    """The same for nu < 0: n eta < 1 between the ends, and n eta > 1 in the late window alone."""
+def _below(view, rng):
+    """For nu < 0: n eta < 1 between the ends, and n eta > 1 in the late window alone."""
     if not (-0.3 <= view.nu < 0 and 0 < view.low < 1):
         return ["nu is not in [-0.3, 0), or the least eta not between 0 and 1"]
     count, tried = len(view.ends), []

@@ -249,12 +249,6 @@ FALSE = {
         _of("lower", put("growth", lambda old: old + 1)),
         _of("pieces", put("arcs", lambda old: old[:2] + old[3:])),
     ],
-    "Expansion": [
-        put("rate", F(2)),
-        put("rate", F(1)),
-        put("scales", lambda old: (F(1),) * len(old)),
-        put("scales", lambda old: old[1:]),
-    ],
     "Between": [
         put("full", lambda old: old + 1),
         put("images", lambda old: tuple((off(low), off(high)) for low, high in old)),
@@ -265,6 +259,9 @@ FALSE = {
         put("words", lambda old: (*old, old[0])),
         put("words", lambda old: tuple((len(old[0]) + 50, *w[1:]) for w in old)),
         _of("expansion", put("rate", F(2))),
+        _of("expansion", put("rate", F(1))),
+        _of("expansion", put("scales", lambda old: (F(1),) * len(old))),
+        _of("expansion", put("scales", lambda old: old[1:])),
     ],
     "Coding": [
         _of("expansion", put("rate", F(2))),
@@ -348,12 +345,8 @@ FALSE = {
     "EtaWindows": [
         put("ends", lambda old: ((off(old[0][0]), old[0][1]), *old[1:])),
         put("ends", lambda old: old[:2]),
-    ],
-    "BelowWindows": [
-        put("ends", lambda old: ((off(old[0][0]), old[0][1]), *old[1:])),
-        put("ends", lambda old: old[:2]),
-        put("late", lambda old: (old[0], off(old[1]))),
-        put("late", lambda old: (off(old[0]), off(old[1]))),
+        put("late", lambda old: old and (old[0], off(old[1]))),
+        put("late", lambda old: old and (off(old[0]), off(old[1]))),
     ],
     "NuWindows": [_window, put("below", ())],
     "Differential": [
@@ -408,11 +401,6 @@ FALSE = {
         put("expressions", lambda old: (*old[:-1], (old[-1][0], f"2*({old[-1][1]}) + 1"))),
     ],
     "Value": [offs("bounds")],
-    "Zero": [
-        offs("bracket"),
-        put("bracket", lambda old: (old[0], old[0])),
-        put("function", lambda old: f"({old})**2 + 1"),
-    ],
     "UniqueZero": [put("box", lambda old: tuple((b + 10, b + 11) for _, b in old))],
     "Image": [put("bounds", lambda old: tuple((b + 10, b + 11) for _, b in old))],
     "Trapped": [
@@ -461,7 +449,7 @@ FALSE = {
         put("cells", lambda old: old[:-1]),
         put("contraction", F(1)),
         put("contraction", F(1, 10**6)),
-        put("beyond", lambda old: (old[0], old[0] + F(1, 10**4))),
+        _of("beyond", put("points", lambda old: (old[0], old[0] + F(1, 10**4)))),
         _of("arc", offs("phase")),
     ],
     "SticksOnce": [

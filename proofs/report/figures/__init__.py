@@ -1,7 +1,4 @@
-"""The figures of the report, each drawn from a certificate that is there.
-
-python -m proofs.report.figures --help
-"""
+"""The figures of the report, each drawn from a certificate that is there."""
 
 from __future__ import annotations
 
@@ -16,18 +13,18 @@ if TYPE_CHECKING:
 _PLACES: Mapping[str, tuple[str, str]] = MappingProxyType(
     {
         "figure-1": ("foundations", "model.FIGURE"),
-        "figure-2": ("horseshoe", "impact_map.FIGURE"),
+        "figure-2": ("horseshoe", "impact_map.PRINTED"),
         "figure-3": ("dimension", "cantor.FIGURE"),
-        "figure-4": ("horseshoe", "rectangles.FIGURE"),
-        "figure-5": ("circle", "circle.FIGURE"),
-        "figure-6": ("circle", "transients.FIGURE"),
-        "three-sets": ("chaos", "three_sets.FIGURE"),
-        "restitution": ("persistence", "restitution.FIGURE"),
+        "figure-4": ("horseshoe", "restitution.RECTANGLES"),
+        "figure-5": ("circle", "circle.CIRCLE"),
+        "figure-6": ("circle", "circle.TRANSIENTS"),
+        "three-sets": ("chaos", "impact_map.THREE_SETS"),
+        "restitution": ("persistence", "restitution.TRANSIENTS"),
         "figure-7a": ("single", "windows.FIGURE_A"),
         "figure-7b": ("single", "windows.FIGURE_B"),
         "section-5": ("soft", "soft.FIGURE"),
-        "figure-8": ("resonance", "resonance.FIGURE"),
-        "figure-10": ("resonance", "traces.FIGURE"),
+        "figure-8": ("resonance", "resonance.IMPACTS"),
+        "figure-10": ("resonance", "resonance.TRACES"),
     }
 )  # of each its certificate and where it is
 _OWN: Mapping[str, tuple[str, str]] = MappingProxyType(

@@ -7,7 +7,7 @@ from itertools import product
 from proofs.motion.system import System
 from proofs.report.figures import style
 from proofs.report.figures.figure import Figure, all_of, the
-from proofs.report.figures.sampled import image, preimage
+from proofs.report.figures.impact_map import image, preimage
 from proofs.report.figures.style import Axes, Drawing
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.staying import StayingSet

@@ -10,7 +10,7 @@ from proofs.motion.system import System
 from proofs.report.figures import style
 from proofs.report.figures.circle import on_circle
 from proofs.report.figures.figure import Figure, all_of
-from proofs.report.figures.sampled import graph
+from proofs.report.figures.impact_map import graph
 from proofs.report.figures.style import Drawing
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.coverings import EntropyBound

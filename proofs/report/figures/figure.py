@@ -10,9 +10,11 @@ from typing import TypeVar
 
 from intervals import Undecided
 from proofs.report.figures.style import Drawing, style, svg_of
+from proofs.report.findings import section_of
 from proofs.trusted.files import read
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
+from proofs.trusted.paper import find
 from proofs.trusted.verify import premises
 
 Documents = Mapping[str, Context]
@@ -35,6 +37,12 @@ class Figure:
     certificate: str
     shows: str
     plot: Callable[[Context], Drawing]
+
+    @property
+    def section(self) -> str:
+        """The section of the paper that it belongs to: that of its first claim."""
+        row = find(self.claims[0])
+        return "" if row is None else section_of(row)
 
     def svg(self, documents: Documents) -> str:
         """Return the figure as SVG, the same text for the same certificate.

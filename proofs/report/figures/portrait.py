@@ -1,12 +1,22 @@
-"""A portrait of any system: proved sets of a horseshoe and orbits, over sampled points."""
+"""A portrait of any system: proved sets of a horseshoe and orbits, over sampled points; a tube."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from io import StringIO
 from typing import Any
 
-from proofs.report.figures.style import BLUE, GREY, ORANGE, PROVED, RED, sheet, style
+from proofs.methods.tubes import Tube
+from proofs.report.figures.style import (
+    BLUE,
+    GREY,
+    ORANGE,
+    PROVED,
+    RED,
+    proved_boxes,
+    sheet,
+    style,
+    svg_of,
+)
 from proofs.trusted.kernel.arithmetic import Enclosure
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.covers import HSet
@@ -33,9 +43,7 @@ def portrait(points: Any, variables: Sequence[str], proved: Sequence[Conclusion]
         axes.set_xlabel(variables[0])
         axes.set_ylabel("" if flat else variables[1])
         axes.legend(loc="upper right")
-        stream = StringIO()
-        drawing.savefig(stream, format="svg", dpi=150, metadata={"Date": None, "Creator": None})
-    return stream.getvalue()
+        return svg_of(drawing, "portrait", f"{', '.join(variables)}: proved, over sampled", 150)
 
 
 def _draw_set(axes: Any, node: HSet, periods: Mapping[int, Enclosure], flat: bool) -> None:
@@ -66,3 +74,16 @@ def _draw_orbits(axes: Any, orbits: Sequence[PeriodicOrbit], flat: bool) -> None
             x, y = zip(*((p[0], 0 if flat else p[1]) for p in places), strict=True)
             label = f"proved: {stability.removeprefix('a ')}"
             axes.plot(x, y, mark, color=colour, markersize=4, label=label, gid=PROVED)
+
+
+def drawn_tube(tube: Tube) -> str:
+    """Return it as SVG."""
+    pieces = tube.pieces()
+    with style("tube"):
+        drawing, grid = sheet(1.6 * len(tube.names), rows=len(tube.names), squeeze=False)
+        panels = grid[:, 0]
+        for k, (name, axes) in enumerate(zip(tube.names, panels, strict=True)):
+            proved_boxes(axes, [(piece.time, piece.box[k]) for piece in pieces], BLUE)
+            axes.set_ylabel(name)
+        panels[-1].set_xlabel("time")
+        return svg_of(drawing, "tube", f"{', '.join(tube.names)} over the time, proved")

@@ -25,6 +25,8 @@ PROVED = "proved"  # the gid of what a certificate proves
 
 _STYLE: dict[Any, Any] = {
     "font.size": 8,
+    "font.sans-serif": ["DejaVu Sans", "Verdana"],  # where letters lie is reckoned with the first
+    "svg.fonttype": "none",  # letters are letters: to be found, copied, read aloud
     "axes.titlesize": 8,
     "axes.titlelocation": "left",
     "axes.labelsize": 9,
@@ -44,7 +46,14 @@ _STYLE: dict[Any, Any] = {
 }
 _SHORT = 1e-6  # matplotlib leaves out strokes without length
 _NUMBER = re.compile(r"-?\d+\.\d{3,}")
-_PATH = re.compile(r' (?:d|x|y|points)="[^"]*"')
+_PATH = re.compile(r' (?:d|x|y|points|transform)="[^"]*"')
+_FAMILY = "font-family: 'DejaVu Sans', Verdana, sans-serif"
+_COMMON = f"stroke-linejoin: round; stroke-linecap: butt; {_FAMILY}"  # of all parts
+_SPARE = re.compile(
+    r"^.*?(?=<svg)|<metadata>.*?</metadata>|<defs>\s*<style.*?</defs>|<!--.*?-->"
+    r"|; font-family: [^;\"]*| transform=\"rotate\(-0 [^\"]*\"",
+    re.DOTALL,
+)
 _MADE = re.compile(r' id="([^"]+)"')
 _USED = re.compile(r'(?<=="#)[^"]+|(?<=url\(#)[^)]+')
 
@@ -145,24 +154,31 @@ def dots(
     axes.autoscale_view()
 
 
-def svg_of(drawing: Drawing, name: str, title: str) -> str:
+def svg_of(drawing: Drawing, name: str, title: str, dpi: int = 72) -> str:
     """Return a drawing as SVG without date and metadata, and close it.
 
     Coordinates have two places, a hundredth of a point. Names are those that something refers to;
-    they begin with the figure's, so that a page may hold several figures.
+    they begin with the figure's, and nothing is said but of its own parts, so that a page may hold
+    several figures. dpi: of what is rastered in it.
     """
     from matplotlib import pyplot as plt
 
     file = io.StringIO()
     none = dict.fromkeys(("Date", "Creator", "Format", "Type"))
-    drawing.savefig(file, format="svg", metadata={**none, "Title": title})
+    drawing.savefig(file, format="svg", dpi=dpi, metadata={**none, "Title": title})
     plt.close(drawing)
-    text = _PATH.sub(lambda path: _NUMBER.sub(_two_places, path[0]), file.getvalue())
+    text = _PATH.sub(_shortened, _SPARE.sub("", file.getvalue()))
+    text = text.replace(">", f' style="{_COMMON}">', 1)
     short = {long: f"{name}-{k}" for k, long in enumerate(dict.fromkeys(_USED.findall(text)))}
     text = _MADE.sub(lambda made: f' id="{short[made[1]]}"' if made[1] in short else "", text)
     text = _USED.sub(lambda used: short[used[0]], text)
-    return "\n".join(map(str.strip, text.splitlines())) + "\n"
+    return re.sub(r"\s*\n\s*", "\n", text).strip() + "\n"
 
 
-def _two_places(number: re.Match[str]) -> str:
-    return f"{float(number[0]):.2f}"
+def _shortened(attribute: re.Match[str]) -> str:
+    """Return places with two decimals; in a path, lines lead to all points after a point."""
+    text = _NUMBER.sub(lambda number: f"{round(float(number[0]), 2):g}", attribute[0])
+    text = re.sub(r"\s+", " ", text).replace(' "', '"')
+    if not re.search('[^ dMLz0-9.="-]', text):
+        text = re.sub(r"M (\S+ \S+) L \1(?= M|\")", r"M \1 h0", text).replace(" L ", " ")
+    return re.sub(r"(?<=[\dA-Z\"]) ?([A-Zhz]) ?", r"\1", text)

@@ -8,11 +8,10 @@ from fractions import Fraction
 from typing import Any
 
 from proofs.report.figures import style
-from proofs.report.figures.figure import Figure, the
+from proofs.report.figures.figure import Figure, all_of, the
 from proofs.report.figures.style import Axes, Drawing
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Range, show
-from proofs.trusted.paper.s4_single.below import BelowWindows
 from proofs.trusted.paper.s4_single.windows import EtaWindows, NuWindows, Window
 
 _POINTS = 4000
@@ -68,12 +67,12 @@ def _named(axes: Axes, x: list[float], y: list[float], name: str, colour: str = 
 
 def plot_a(proved: Context) -> Drawing:
     """Draw figure 7a for both signs of nu: eta on a logarithmic axis."""
-    above, below = the(proved, EtaWindows), the(proved, BelowWindows)
+    found = sorted(all_of(proved, EtaWindows), key=lambda each: -each.nu)
     drawing, both = style.sheet(5.4, 2, 1, sharex=True)
-    late = [(1, *below.late)]
-    _against_eta(both[0], above.nu, above.low, _numbered(above.ends))
-    _against_eta(both[1], below.nu, below.low, [*_numbered(below.ends), *late])
-    both[1].set(xlabel=r"$\eta$", xscale="log", xlim=(0.8 * float(above.low), _WIDEST))
+    for axes, each in zip(both, found, strict=True):
+        late = [(1, *each.late)] if each.late else []
+        _against_eta(axes, each.nu, each.low, [*_numbered(each.ends), *late])
+    both[1].set(xlabel=r"$\eta$", xscale="log", xlim=(0.8 * float(found[0].low), _WIDEST))
     style.legend_below(drawing, both[0], 2)
     return drawing
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from fractions import Fraction
 from functools import lru_cache
 from math import isqrt
@@ -11,6 +10,7 @@ from proofs.trusted.kernel.arithmetic import MANY, Enclosure, Unproved, exponent
 from proofs.trusted.kernel.meter import METER
 
 _Ends = tuple[int, int]
+_NEAR = 60  # bits of a candidate
 
 
 def log(value: Fraction, bits: int) -> Enclosure:
@@ -37,7 +37,7 @@ def log_of(x: Enclosure) -> Enclosure:
     if not (1 << bits) >> 90 < x.lo <= x.hi < 1 << (bits + 90):
         raise Unproved("the logarithm of an enclosure that leaves (2^-90, 2^90)")
     if bits < MANY:
-        y = rational(Fraction(math.log(middle / (1 << bits))), bits)
+        y = rational(Fraction(_near_log(middle, bits), 1 << _NEAR), bits)
     else:
         up = bits >> 1
         y = log_of(Enclosure(middle >> up, middle >> up, bits - up))
@@ -47,6 +47,17 @@ def log_of(x: Enclosure) -> Enclosure:
     if 5 * max(-z.lo, z.hi) > 1 << bits:
         raise Unproved("a wide enclosure has no logarithm")
     return y + _log1(z)
+
+
+def _near_log(x: int, bits: int) -> int:
+    """Return about log(x / 2^bits), in units of 2^-60: nothing rests on how near it is."""
+    n, one = x.bit_length(), 1 << _NEAR
+    m = x << _NEAR >> n  # x = m 2^n, m in [1/2, 1)
+    z = (m - one << _NEAR) // (m + one)
+    square, power, total = z * z >> _NEAR, z, 0
+    for k in range(1, _NEAR, 2):
+        total, power = total + power // k, power * square >> _NEAR
+    return 2 * total + (n - bits) * _log2(_NEAR).lo
 
 
 def _log1(z: Enclosure) -> Enclosure:

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 
-DEFAULT = 8_000_000  # some eight seconds; committed certificates take less
+DEFAULT = 8_000_000  # some eight seconds; one committed certificate takes more
 
 
 class Exhausted(ArithmeticError):
@@ -22,22 +22,22 @@ class Meter:
 
     __slots__ = ("limit", "most", "spent")
 
-    def __init__(self, limit: float, left: float) -> None:
-        self.limit, self.most, self.spent = limit, min(limit, left), 0.0
+    def __init__(self, limit: int, left: int) -> None:
+        self.limit, self.most, self.spent = limit, min(limit, left), 0
 
-    def spend(self, amount: float) -> None:
+    def spend(self, amount: int) -> None:
         """Count work; Exhausted where more is asked for than there is."""
         self.spent += amount
         if self.spent > self.most:
-            raise Exhausted(f"it needs more work, --work {2 * self.limit:.0f}")
+            raise Exhausted(f"it needs more work, --work {2 * self.limit}")
 
 
-_UNLIMITED = Meter(float("inf"), float("inf"))
+_UNLIMITED = Meter(10**30, 10**30)
 METER: ContextVar[Meter] = ContextVar("meter", default=_UNLIMITED)
 
 
 @contextmanager
-def metered(limit: float) -> Iterator[Meter]:
+def metered(limit: int) -> Iterator[Meter]:
     """Give what is done inside so much work, which is part of what is done around it."""
     outer = METER.get()
     meter = Meter(limit, outer.most - outer.spent)

@@ -95,7 +95,7 @@ _ATAN_HALVINGS = 3
 _ATAN_GUARD = 16  # bits
 
 
-def _atan(x: Enclosure) -> Enclosure:
+def atan(x: Enclosure) -> Enclosure:
     """Enclose atan, which increases: from the two ends."""
     low, high = (_atan_of_point(Enclosure(end, end, x.bits)) for end in (x.lo, x.hi))
     return low.hull(high)
@@ -134,5 +134,5 @@ _FUNCTIONS: dict[str, Callable[[Enclosure], Enclosure]] = {
     "log": _log,
     "sin": lambda x: x.sincos()[0],
     "cos": lambda x: x.sincos()[1],
-    "atan": _atan,
+    "atan": atan,
 }

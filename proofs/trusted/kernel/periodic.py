@@ -24,7 +24,7 @@ from proofs.trusted.numbers import within
 
 _BITS = 64  # of tubes
 _FINE = 256  # of points
-_SMALLEST = 2.0**-36  # side of a tube, as a part of that of the box
+_SMALLEST = 1 << 28  # side of a tube, in units of 2^-64 of that of the box
 _CUT = 509, 1024  # of a side: not in its middle, where a symmetric map has points
 
 Tube = list[Point]  # boxes around x_0, x_1 = F(x_0), ...
@@ -219,10 +219,10 @@ class Search:
             place = shown([x.range for x in tube[0]])
             raise Unproved(f"not decided whether another periodic orbit has a point in {place}")
 
-    def open_tubes(self, smallest: float) -> Iterator[Tube]:
+    def open_tubes(self, smallest: int) -> Iterator[Tube]:
         """Yield tubes that hold all orbits in the box that are not listed.
 
-        Each side is shorter than a part `smallest` of that of the box.
+        Each side is shorter than so many units of 2^-64 of that of the box.
         """
         sides = enclosed(self.box, _BITS)
         waiting: list[Tube] = [[list(sides) for _ in range(self.period)]]
@@ -235,7 +235,7 @@ class Search:
             if self._is_known(tube):
                 continue
             share, i, k = max(
-                ((x.hi - x.lo) / (side.hi - side.lo), i, k)
+                (((x.hi - x.lo) << 64) // (side.hi - side.lo), i, k)
                 for i, point in enumerate(tube)
                 for k, (x, side) in enumerate(zip(point, sides, strict=True))
             )

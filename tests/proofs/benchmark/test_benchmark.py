@@ -1,18 +1,23 @@
-"""The command: its tables, its page and its exit status; whole processes."""
+"""The command, its page and its status; single operations and arrays: all do the same work."""
 
 import json
 import re
 import sys
+from fractions import Fraction
 
+import numpy as np
 import pytest
 
+from intervals import IntervalArray
 from proofs.benchmark import __main__ as command
-from proofs.benchmark import horseshoe
+from proofs.benchmark import arrays, horseshoe, operations
 from proofs.benchmark.__main__ import main
 from proofs.benchmark.curves import Curve, Point
 from proofs.benchmark.diagrams import Diagram
 from proofs.benchmark.measure import Row
+from proofs.benchmark.operations import ARRAY
 from proofs.benchmark.page import Section
+from proofs.benchmark.peers import FLINT, IV, OURS
 
 MISSED, REACHED = Row("ratio", "5.00", "<= 4", False), Row("loss|", "1e-30", "< 1e-20", True)
 
@@ -87,3 +92,61 @@ def test_without_matplotlib_the_page_has_no_pictures(monkeypatch, tmp_path, caps
     assert main(["--out", str(tmp_path)]) == 0
     assert "no pictures" in capsys.readouterr().err
     assert not list(tmp_path.glob("*.svg"))
+
+
+# -- arrays of other packages ----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", arrays.NAMES)
+@pytest.mark.parametrize("package", arrays.packages())
+def test_packages_do_the_same_work_and_widths_are_counted(package, name):
+    lower = np.linspace(0.1, 3, 40)
+    upper = lower + 2.0**-9
+    p = arrays.packages()[package]
+    beyond = arrays.excess(p, name, lower, upper)
+    assert 0 <= beyond.max() <= (3 if package == "IntervalArray" else 1)
+
+    wider = p._replace(ends=lambda x: (p.ends(x)[0], np.nextafter(p.ends(x)[1], np.inf)))
+    assert arrays.excess(wider, name, lower, upper).mean() > beyond.mean()
+
+
+def test_a_row_for_each_operation_and_package():
+    section = arrays.measure("smallest", lambda _: None)
+    assert len(section.rows) == len(arrays.NAMES) * len(arrays.packages())
+    assert all("ulps" in row.measured for row in section.rows)
+    assert IntervalArray.__name__ in section.rows[0].name
+
+
+# -- single operations -----------------------------------------------------------------------------
+
+
+flint = pytest.importorskip("flint")
+COUNT = 9
+
+
+def flat(found):
+    """Return pairs of exact ends."""
+    if isinstance(found, flint.arb):
+        ends = (end.man_exp() for end in (found.lower(), found.upper()))
+        return [tuple(int(m) * Fraction(2) ** int(e) for m, e in ends)]
+    if hasattr(found, "_mpi_"):  # mpmath.iv
+        ends = ((-1) ** s * int(m) * Fraction(2) ** e for s, m, e, _ in found._mpi_)
+        return [tuple(ends)]
+    if hasattr(found, "inf"):  # ours
+        ends = np.ravel(found.inf).tolist(), np.ravel(found.sup).tolist()
+        return [tuple(map(Fraction, pair)) for pair in zip(*ends, strict=True)]
+    return [pair for one in getattr(found, "tolist", found.__iter__)() for pair in flat(one)]
+
+
+@pytest.mark.parametrize("name", operations._TEXTS)
+def test_all_libraries_do_the_same_work(name):
+    found = {}
+    for library in (ARRAY, OURS, FLINT, IV):
+        text = operations.statement(name, library)
+        if (name, library) != ("hypot", FLINT):  # which has none
+            found[library] = flat(eval(text, operations.operands(library, 53, COUNT)))
+    for library, pairs in found.items():
+        assert len(pairs) == len(found[OURS]), library
+        for (low, high), (least, most) in zip(pairs, found[OURS], strict=True):
+            assert low <= most and least <= high, library
+            assert abs(low - least) <= max(high - low, most - least), library

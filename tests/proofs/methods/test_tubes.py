@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from intervals import Undecided
 from proofs import System
 from proofs.commands.system import main
-from proofs.report.figures.tube import drawn
+from proofs.report.figures.portrait import drawn_tube
 from proofs.trusted.verify import check
 
 
@@ -63,7 +63,7 @@ def test_pieces_of_a_tube_follow_each_other():
     assert all(one.time[1] == two.time[0] for one, two in pairwise(pieces))
     assert (
         not turn().reason
-        and drawn(turn()).count("<path") > 2
+        and drawn_tube(turn()).count("<path") > 2
         and max(b - a for each in pieces for a, b in each.box) < 1
     )
     for times in ((-1,), (9,), (3, 2), (1, 9)):

@@ -5,16 +5,20 @@ from fractions import Fraction
 import pytest
 from mpmath import mp, mpf
 
+from intervals import Undecided
 from proofs.benchmark.peers import FLINT, arithmetic
 from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
-from proofs.motion.witness import FlightBox, Unsettled, locate, march
+from proofs.motion.witness import Flights
 from proofs.plane.steps import impact_times
 from proofs.search.image import Image, image
 from proofs.stress.grazing import graze
 from proofs.stress.truth import BITS
+from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.enclose import enclosed
+from proofs.trusted.kernel.firstzero import NoFirstZero
+from proofs.trusted.kernel.gaps import first_windows
 from proofs.trusted.numbers import COVER_BITS
 from proofs.trusted.oscillator import PlasticMap
 from tests.proofs.trusted.paper import reference
@@ -62,9 +66,10 @@ def short_flight(system, phase, about):
 ONSET, SEPARATION = ends(PAPER)
 
 
-def flights(system, low, high=None):
+def flights(system, low, high=None, bits=COVER_BITS):
     """The flights from phases of an interval, or from one phase."""
-    return FlightBox.plastic(system.place, (low, low if high is None else high))
+    motion = Motion(system.place, (low, low if high is None else high), bits)
+    return Flights.plastic(motion)
 
 
 @pytest.mark.slow
@@ -95,14 +100,6 @@ def test_intervals_next_to_the_onset_of_sticking_have_images(exponent, share):
     assert found.slope[1] - found.slope[0] < max(share / 4, Fraction(1, 50))
 
 
-def test_precision_grows_where_it_must():
-    needed = [locate(flights(PAPER, Fraction("1.13"))).bits]
-    for exponent in (1, 6, 12, 24):
-        needed.append(locate(flights(PAPER, ONSET - Fraction(1, 10**exponent))).bits)
-    assert needed[0] == needed[1] == COVER_BITS and needed == sorted(needed)
-    assert needed[-1] > needed[2] > COVER_BITS
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("exponent", [3, 25, 40])
 def test_both_sides_of_the_separation_phase(exponent):
@@ -121,69 +118,36 @@ def test_both_sides_of_the_separation_phase(exponent):
 
 @pytest.mark.parametrize("side", [-1, 1])
 @pytest.mark.parametrize("exponent", [5, 17, 30])
-def test_what_is_found_next_to_grazing_is_what_the_checker_finds(exponent, side):
+def test_times_next_to_grazing_are_what_the_rules_prove(exponent, side):
     eta, nu, phase = graze(arithmetic(FLINT, BITS), 2)
-    point = phase + side * Fraction(1, 10**exponent)
-    found = locate(flights(System(eta, nu), point))
-    assert found.transversal and len(found.windows) == 1
-    assert list(found.times) == sorted(set(found.times)) and found.times[0] > 0
-    own = PlasticMap(System(eta, nu).place).window(enclosed((found.flights.phases,), 256))
-    assert own[0] < found.windows[0][1] and found.windows[0][0] < own[1]
-    assert found.proved_windows() == found.windows
+    point, system = phase + side * Fraction(1, 10**exponent), System(eta, nu)
+    flown = flights(system, point, bits=4 * COVER_BITS)
+    times = flown.times((2,))
+    assert times == sorted(set(times)) and times[0] > 0
+    assert first_windows(flown.gap_of, times, 2) == (((times[-2], times[-1]),), True)
+    own = PlasticMap(system.place).window(enclosed(((point, point),), 256))
+    assert own[0] < times[-1] and times[-2] < own[1]
+    with pytest.raises(Unproved, match="negative at the last time"):
+        first_windows(flown.gap_of, times[:-1], 2)
 
 
-@pytest.fixture
-def asked(monkeypatch):
-    """(bits, time) of each gap that is evaluated."""
-    found, sound = [], FlightBox.gap_of
-
-    def gap_of(self, bits, start=None):
-        plain = sound(self, bits, start)
-
-        def spied(time, order):
-            found.append((bits, time[0]))
-            return plain(time, order)
-
-        return spied
-
-    monkeypatch.setattr(FlightBox, "gap_of", gap_of)
-    return found
-
-
-@pytest.mark.parametrize("single", [True, False])
-def test_unsettled_knows_where_the_gap_is_positive(single, asked):
-    # a launch next to grazing, looked at with coarse steps: the minimum is neither > 0 nor < 0
-    eta, nu, phase = graze(arithmetic(FLINT, BITS), 2)
-    box, start = flights(System(eta, nu), phase), [Fraction(1, 64)]
-    about = (
-        next_impact(System(eta, nu), float(phase) + 1e-3),
-        next_impact(System(eta, nu), float(phase) - 1e-3),
-    )
-    horizon = Fraction(min(each.time for each in about)) + 5
-    with pytest.raises(Unsettled) as refused:
-        march(box, COVER_BITS, horizon, Fraction(1, 8), start, single=single)
-    excluded, latest = refused.value.excluded, max(time for _, time in asked)
-    assert (latest >= horizon - 1) != single  # a window left behind ends a single search
-    assert excluded[:1] == start and excluded == sorted(set(excluded))
-    assert excluded[-1] < horizon - 4
-    gap_of = box.gap_of(COVER_BITS)
-    assert all(gap_of((time, time), 0).lo > 0 for time in excluded)
+@pytest.mark.parametrize(
+    ("low", "high", "error"),
+    [("1.19", "1.21", Unproved), ("1.57", "1.57", NoFirstZero), ("4", "4", Undecided)],
+    ids=["some graze", "none impacts", "sticks"],
+)
+def test_where_no_first_impact_is_proved_there_are_no_times(low, high, error):
+    with pytest.raises(error):
+        flights(PAPER, Fraction(low), Fraction(high)).times((2,))
 
 
 def test_a_window_is_narrowed_to_the_impacts_of_all_launches():
-    box = flights(PAPER, Fraction("1.11"), Fraction("1.12"))
-    (window,) = march(box, COVER_BITS).windows
-    low, high = impact_times(box.gap_of(COVER_BITS + 16), window, 16)
-    times = [next_impact(PAPER, float(phase)).time for phase in box.phases]
+    ends = Fraction("1.11"), Fraction("1.12")
+    window = flights(PAPER, *ends).times((2,))[-2:]
+    low, high = impact_times(flights(PAPER, *ends, COVER_BITS + 16).gap_of, window, 16)
+    times = [next_impact(PAPER, float(phase)).time for phase in ends]
     assert window[0] < low < min(times) and max(times) < high < window[1]
-    last, gap_of = (window[1] - window[0]) / 2**16, box.gap_of(2 * COVER_BITS)
+    last = (window[1] - window[0]) / 2**16
+    gap_of = flights(PAPER, *ends, 2 * COVER_BITS).gap_of
     signs = [gap_of((x, x), 0) for x in (low, low + last, high, high - last)]
     assert signs[0].lo > 0 >= signs[1].lo and signs[2].hi < 0 <= signs[3].hi
-
-
-def test_what_is_seen_and_not_proved_is_refused():
-    seen = march(flights(PAPER, Fraction("1.19"), Fraction("1.21")), COVER_BITS)  # some graze
-    assert not seen.transversal and seen.proved_windows() == seen.windows
-    early = seen._replace(times=seen.times[:-1])
-    with pytest.raises(Unproved, match="negative at the last time"):
-        early.proved_windows()

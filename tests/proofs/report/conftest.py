@@ -6,9 +6,9 @@ import shutil
 import pytest
 
 from proofs.report.atlases import atlases
+from proofs.report.build import shown as shown_figures
 from proofs.report.figures.figure import Certificates
 from proofs.report.findings import findings
-from proofs.report.pictures import pictures
 from tests.once import REPORTS, report
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
@@ -69,7 +69,7 @@ def found(documents):
 @pytest.fixture(scope="session")
 def shown(found, documents):
     """The figures that belong to it."""
-    return pictures(documents, [claim.id for claim in found.claims])
+    return shown_figures(documents, [claim.id for claim in found.claims])
 
 
 @pytest.fixture(scope="session")

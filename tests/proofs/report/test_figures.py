@@ -25,7 +25,6 @@ pytest.importorskip("matplotlib")
 
 from proofs.__main__ import main as command
 from proofs.report.figures import curves, dossier, figures
-from proofs.report.figures.__main__ import main
 from proofs.report.figures.figure import all_of
 from proofs.report.figures.style import PROVED, style, svg_of
 
@@ -139,11 +138,21 @@ def test_what_is_not_proved_is_not_drawn(name):
         BY_NAME[name].plot(Context(PAPER))
 
 
-def test_the_command_writes_them(tmp_path, documents):
-    (tmp_path / "single.json").write_text((REPORTS / "single.json").read_text())
-    assert main(["--only", "figure-7b", "--out", str(tmp_path)]) == 0
-    drawn = tmp_path / "figures" / "figure-7b.svg"
-    assert drawn.read_text() == BY_NAME["figure-7b"].svg(documents)  # the same again
+@pytest.mark.parametrize(
+    "path, short",
+    [
+        ("M 1 2.0051 \nL -3.456 4 \nL 5 6 \nz\n", "M1 2.01 -3.46 4 5 6z"),
+        ("M 1 2 \nQ 1 2 3.999 4 \nL 0 1 \n", "M1 2Q1 2 4 4L0 1"),
+        ("M 7.001 8 \nL 7.002 8 \nM 1 2 \nL 3 2 \n", "M7 8h0M1 2 3 2"),
+    ],
+)
+def test_a_path_leads_to_the_same_points_to_two_places(path, short):
+    from matplotlib import pyplot as plt
+
+    with style("path"):
+        drawing = plt.figure()
+    drawing.savefig = lambda file, **_: file.write(f'<svg><path d="{path}" style="a"/></svg>')
+    assert f'<path d="{short}" style="a"/>' in svg_of(drawing, "path", "a path")
 
 
 # -- one by one ------------------------------------------------------------------------------------

@@ -12,7 +12,6 @@ from proofs.report import __main__ as command
 from proofs.report import theorem as _page
 from proofs.report.accepted import Accepted
 from proofs.report.differences import facts, marked
-from proofs.report.inline import inlined
 from proofs.report.layout import enclosure, enumerated, percents, sentences
 from proofs.report.ledger import ledger
 from proofs.report.theorem import sources, template, theorem
@@ -217,25 +216,6 @@ def test_what_is_not_proved_is_not_printed(small, name, old, new, status, capsys
     told = capsys.readouterr()
     assert (told.out + told.err).count("\n") == 1
     assert not (small / "index.html").exists() and not (small / "ledger.md").exists()
-
-
-@pytest.mark.slow
-def test_drawings_in_the_page_keep_their_numbers_and_find_their_letters(shown):
-    files = {x.name: (REPORTS / "figures" / f"{x.name}.svg").read_text() for x in shown}
-    inside = inlined(files)
-    whole = "".join(inside.values())
-    ids = re.findall(r' id="([^"]*)"', whole)
-    assert len(set(ids)) == len(ids)
-    assert set(re.findall(r'href="#([^"]*)"|url\(#([^)]*)\)', whole)) <= {
-        pair for each in ids for pair in ((each, ""), ("", each))
-    }
-    for name, text in files.items():
-        for old, new in zip(
-            re.findall(r'<path d="([^"]*)" (?:clip|style)', text),
-            re.findall(r'<path d="([^"]*)" (?:clip|style)', inside[name]),
-            strict=True,
-        ):
-            assert re.findall(r"-?[\d.]+", old) == re.findall(r"-?[\d.]+", new)
 
 
 @pytest.mark.parametrize(

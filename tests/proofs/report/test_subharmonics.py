@@ -4,7 +4,7 @@ import cmath
 import math
 from fractions import Fraction
 
-from proofs.report import subharmonics
+from proofs.report.figures import resonance
 
 
 def amplitude(samples, cycles):
@@ -20,14 +20,14 @@ def below(samples):
 
 def test_the_steady_motion_has_the_frequency_of_the_table():
     for nu in (Fraction(-1, 10), Fraction(-2)):
-        samples = subharmonics.displacement(nu, 432)
+        samples = resonance.displacement(nu, 432)
         early, late = samples[: 32 * 64], samples[400 * 64 :]
         assert below(early) > 0.01 and below(late) < 1e-6 and amplitude(late, 1) > 0.5
 
 
 def test_elastic_impacts_may_repeat_after_eight_periods_without_a_line_below_the_drive():
     nu = -Fraction(math.tan(math.pi / 9))  # nine impacts in eight periods
-    samples = subharmonics.displacement(nu, 40, epsilon=1.0)
+    samples = resonance.displacement(nu, 40, epsilon=1.0)
     period, window = 8 * 64, samples[512:]
     assert max(abs(a - b) for a, b in zip(window[period:], window, strict=False)) < 1e-6
     assert max(abs(a - b) for a, b in zip(window[64:], window, strict=False)) > 0.1

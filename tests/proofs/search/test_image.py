@@ -6,9 +6,10 @@ import pytest
 from mpmath import mpf
 
 from intervals import Undecided
+from proofs.motion.landing import separation_phase
 from proofs.motion.system import System
 from proofs.motion.witness import NoImpact
-from proofs.search.image import Image, PossibleImages, image, separation_phase
+from proofs.search.image import Image, PossibleImages, image
 from tests.proofs.trusted.paper import reference
 
 PAPER = System(Fraction("0.2121"), Fraction("-0.2"))

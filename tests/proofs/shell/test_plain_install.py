@@ -52,13 +52,12 @@ def test_a_plain_install_runs_what_the_readme_says(name, tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("module", ["proofs.report", "proofs.report.figures"])
-def test_pages_and_figures_name_what_they_need(module, tmp_path):
+def test_the_report_names_what_it_needs(tmp_path):
     """The report without its page: a line and status 1."""
     folder = ["--out", str(tmp_path)]
     done = without(OPTIONAL["report"], "proofs", ["ledger", "--only", "H16", *folder])
     assert done.returncode == 0
-    done = without(OPTIONAL["report"], module, folder)
+    done = without(OPTIONAL["report"], "proofs.report", folder)
     assert done.returncode == 1 and "Traceback" not in done.stderr
     assert "pip install 'impact-proofs[report]'" in done.stdout + done.stderr
 

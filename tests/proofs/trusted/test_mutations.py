@@ -12,7 +12,7 @@ from proofs.trusted.files import render as text_of
 from proofs.trusted.kernel.meter import DEFAULT
 from proofs.trusted.rules import RULES
 from proofs.trusted.verify import Rejected, check, premises
-from tests.effort import EFFORT
+from tests.once import EFFORT
 from tests.oracles.judge import oracle
 from tests.proofs.trusted import corpus
 from tests.proofs.trusted.edits import lie

@@ -7,72 +7,15 @@ as it grows, the phase at which they end moves to phi_s. Beyond, the mass passes
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 
-from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.kernel.context import Context
 from proofs.trusted.numbers import Range, show
-from proofs.trusted.paper.s34_circle.bounces import bounced, kicked
-from proofs.trusted.paper.s34_circle.landing import Separation
-from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
+from proofs.trusted.paper.s34_circle.persistence import Passes, SuperstableMotion
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
-
-_BITS = 256  # near the border each bounce loses three bits
-_MOST = 100  # bounces
-
-
-@dataclass(frozen=True)
-class Passes(Conclusion):
-    """After the flight from phi_s, and so many bounces, the mass passes phi_s in flight."""
-
-    arc: Separation
-    epsilon: Fraction
-    bounces: int
-
-    def __post_init__(self) -> None:
-        if not (self.arc.returns and self.arc.speed[0] > 0 and 0 < self.epsilon < 1):
-            raise Unproved("no impact on the arc with a speed > 0 is followed by a bounce")
-
-    @property
-    def at(self) -> Place:
-        """The oscillator."""
-        return replace(self.arc.at, epsilon=(self.epsilon, self.epsilon))
-
-    @property
-    def sentence(self) -> str:
-        return (
-            f"the mass that leaves the table at phi_s with relative velocity 0 {self.brief}, the "
-            "first separation phase after it lands."
-        )
-
-    @property
-    def brief(self) -> str:
-        return f"has {self.bounces} impacts after it lands, and is in flight at phi_s"
-
-
-def passes_separation(context: Context, reader: Reader) -> Passes:
-    """Rule `passes-separation`: {separation, epsilon > 0, bounces: [[t, t'], ...]}.
-
-    Hypotheses: the impact of the `separation` step has a speed > 0 and a phase inside the arc;
-    bounce after bounce has its impact in the bracket given, by Lemma 1 (`bounce`); after them all
-    flights have gap > 0 at phi_s. Conclusion: `Passes`. Proof. a < 0 from the last impact to phi_s,
-    so by Lemma 1 the gap has no zero before a time at which it is > 0.
-    """
-    arc_of, epsilon_of, bounces_of = reader.fields("separation", "epsilon", "bounces")
-    arc, epsilon = context.step(arc_of, Separation), epsilon_of.number()
-    times = [time.range() for time in bounces_of.items(most=_MOST)]
-    state = arc.arrival, arc.speed
-    phases, (slow, fast) = bounced(arc.at, state, (epsilon, epsilon), times, _BITS)
-    time = arc.phase[0] - phases[1], arc.phase[1] - phases[0]
-    if time[0] <= 0 or arc.at.eta[1] * time[1] > 3:
-        raise Unproved("the last flight begins after phi_s, or is longer than its lemma allows")
-    if kicked(arc.at, phases, (epsilon * slow, epsilon * fast), _BITS)(time, 0).lo <= 0:
-        raise Unproved("the mass is not proved to be in flight at the separation phase")
-    return Passes(arc, epsilon, len(times))
 
 
 @dataclass(frozen=True)

@@ -12,14 +12,16 @@ from collections.abc import Iterable
 from fractions import Fraction
 from functools import partial
 
-from proofs.trusted.equations import launch_acceleration
-from proofs.trusted.flights import Motion
+from proofs.trusted.equations import closing, launch_acceleration
+from proofs.trusted.flights import Motion, lifted
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.gaps import Gap, brackets
 from proofs.trusted.numbers import COVER_BITS, Range
+from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.parameters import Place
 
 State = tuple[Range, Range]  # phases and relative speeds of impacts
+Box = tuple[Range, Range]  # phases x velocities
 
 
 def push(at: Place, phases: Range, bits: int = COVER_BITS) -> Range:
@@ -95,3 +97,37 @@ def settle(at: Place, phases: Range, rest: Fraction, kick: Fraction, shrinking: 
         raise Unproved("the speeds of the bounces are not proved to shrink by the ratio")
     if last + 2 * kick / (-weak * (1 - ratio)) > rest:
         raise Unproved("the bounces are not proved to end by the phase of rest")
+
+
+# -- on the arc where the mass sticks --------------------------------------------------------------
+
+
+def _speeds(at: Place, phases: Range, gammas: Range, bits: int) -> Range:
+    """Enclose the relative speeds before impacts at these phases and velocities."""
+    motion = Motion(at, phases, bits)
+    speed: Enclosure = closing(motion.start, Enclosure.of(*gammas, bits)) * motion.side
+    return speed.range
+
+
+def starts(arc: Separation, box: Box, bits: int) -> bool:
+    """Whether the state at which the flight from phi_s ends is proved inside a box."""
+    for turns in (0, 1):
+        phases = lifted(arc.arrival, turns, bits)
+        if box[0][0] < phases[0] and phases[1] < box[0][1]:
+            slow, fast = sorted(_speeds(arc.at, phases, (x, x), bits) for x in box[1])
+            return slow[1] < arc.speed[0] and arc.speed[1] < fast[0]
+    return False
+
+
+def landed(arc: Separation, box: Box, bits: int) -> State:
+    """Return phases, on the line, and relative speeds of a box of impacts; raise Unproved unless
+    they are inside the arc where the mass sticks, and positive.
+    """
+    for turns in (0, -1):
+        phases = lifted(box[0], turns, bits)
+        if arc.start[1] < phases[0] and phases[1] < arc.phase[0]:
+            speeds = _speeds(arc.at, phases, box[1], bits)
+            if speeds[0] <= 0:
+                raise Unproved("a speed is not proved to be positive")
+            return phases, speeds
+    raise Unproved("an impact is not proved to be where the mass sticks")

@@ -12,21 +12,26 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.equations import closing
-from proofs.trusted.flights import Motion, lifted
-from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
+from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion, place_of
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.differential import Differential
 from proofs.trusted.kernel.stable import StableCycle
 from proofs.trusted.numbers import Range, between, bits_for, ceil_text, show, show_range, within
-from proofs.trusted.paper.s34_circle.bounces import State, bounced, settle
+from proofs.trusted.paper.s34_circle.bounces import (
+    Box,
+    State,
+    bounced,
+    kicked,
+    landed,
+    settle,
+    starts,
+)
 from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.parameters import PAPER, Parameters, Place
 from proofs.trusted.verdicts import Decide, Decision, Found, Row, Verdict, decided, undecided
 
-_MOST_IMPACTS = 100
-Box = tuple[Range, Range]  # phases x velocities
+_MOST_IMPACTS, _MOST_BOUNCES = 100, 100
 
 
 # -- the periodic motion ---------------------------------------------------------------------------
@@ -111,18 +116,49 @@ class SuperstableMotion(Conclusion):
         return {"epsilon_proved_up_to": (self.largest, self.largest), **self.arc.quantities}
 
 
+@dataclass(frozen=True)
+class Passes(Conclusion):
+    """After the flight from phi_s, and so many bounces, the mass passes phi_s in flight."""
+
+    arc: Separation
+    epsilon: Fraction
+    bounces: int
+
+    def __post_init__(self) -> None:
+        if not (self.arc.returns and self.arc.speed[0] > 0 and 0 < self.epsilon < 1):
+            raise Unproved("no impact on the arc with a speed > 0 is followed by a bounce")
+
+    @property
+    def at(self) -> Place:
+        """The oscillator."""
+        return replace(self.arc.at, epsilon=(self.epsilon, self.epsilon))
+
+    @property
+    def sentence(self) -> str:
+        return (
+            f"the mass that leaves the table at phi_s with relative velocity 0 {self.brief}, the "
+            "first separation phase after it lands."
+        )
+
+    @property
+    def brief(self) -> str:
+        return f"has {self.bounces} impacts after it lands, and is in flight at phi_s"
+
+
 class Cell(NamedTuple):
-    """How bounces end for all epsilon of a range: the first in brackets, the others by Lemma 2."""
+    """How bounces end for all epsilon of a range: the first in brackets, the others by Lemma 2.
+
+    ending: ratio and phase of rest of that lemma; None: after the first ones the mass passes phi_s.
+    """
 
     epsilons: Range
     bounces: Sequence[Range]
-    ratio: Fraction
-    rest: Fraction
+    ending: tuple[Fraction, Fraction] | None
 
 
 def superstable_motion(
     arc: Separation, box: Box, impacts: Sequence[Differential], cells: Sequence[Cell]
-) -> SuperstableMotion:
+) -> SuperstableMotion | Passes:
     """Theorem. Let the mass stick exactly on an arc until phi_s, and the state at which the flight
     from phi_s ends be inside a box of states. Let cells have intervals of epsilon, each from the
     end of the one before. Let `impacts`, if any, be about the same eta, nu and all these epsilon:
@@ -130,7 +166,7 @@ def superstable_motion(
     or the box if there are none, have phases inside the arc and speeds > 0; from there, for each
     cell, bounce after bounce have its impact in the bracket given, by `bounce`, and the one after
     the last bracket satisfy the hypotheses of `settle`, with r = ratio and T = rest, below phi_s.
-    Then what `SuperstableMotion.sentence` says.
+    Then what `SuperstableMotion.sentence` says; `passes` is about a cell without such numbers.
 
     Proof. With relative velocity 0 the flight from phi_s does not depend on epsilon. What has an
     impact in the box has the next ones in its images, then on the arc, where a < 0, as the lemmas
@@ -140,7 +176,7 @@ def superstable_motion(
     if any(one.epsilons[1] != two.epsilons[0] for one, two in pairwise(cells)):
         raise Unproved("the coefficients of cells do not follow one another")
     epsilons, bits = (cells[0].epsilons[0], cells[-1].epsilons[1]), bits_for(box[0])
-    if not _starts(arc, box, bits):
+    if not starts(arc, box, bits):
         raise Unproved("the flight from phi_s is not proved to end in the first box")
     boxes = [box]
     for each in impacts:
@@ -153,50 +189,41 @@ def superstable_motion(
             raise Unproved("a box is not proved to be mapped into the next")
         boxes.append((each.values[0], each.values[1]))
     state = landed(arc, boxes[-1], bits)
+    rests = []
     for cell in cells:
-        last, (_, fast) = bounced(arc.at, state, cell.epsilons, cell.bounces, bits)
+        last, speeds = bounced(arc.at, state, cell.epsilons, cell.bounces, bits)
+        if cell.ending is None:
+            if impacts or len(cells) > 1:
+                raise Unproved("a mass that passes phi_s does so at one epsilon, after bounces")
+            return passes(arc, (last, speeds), cell, bits)
+        ratio, rest = cell.ending
         greatest = cell.epsilons[1]
-        settle(arc.at, last, cell.rest, greatest * fast, (greatest, cell.ratio))
-    rest = max(cell.rest for cell in cells)
-    return SuperstableMotion(arc, epsilons, tuple(boxes), rest)
+        settle(arc.at, last, rest, greatest * speeds[1], (greatest, ratio))
+        rests.append(rest)
+    return SuperstableMotion(arc, epsilons, tuple(boxes), max(rests))
 
 
-def _speeds(at: Place, phases: Range, gammas: Range, bits: int) -> Range:
-    """Enclose the relative speeds before impacts at these phases and velocities."""
-    motion = Motion(at, phases, bits)
-    speed: Enclosure = closing(motion.start, Enclosure.of(*gammas, bits)) * motion.side
-    return speed.range
-
-
-def _starts(arc: Separation, box: Box, bits: int) -> bool:
-    """Whether the state at which the flight from phi_s ends is proved inside a box."""
-    for turns in (0, 1):
-        phases = lifted(arc.arrival, turns, bits)
-        if box[0][0] < phases[0] and phases[1] < box[0][1]:
-            slow, fast = sorted(_speeds(arc.at, phases, (x, x), bits) for x in box[1])
-            return slow[1] < arc.speed[0] and arc.speed[1] < fast[0]
-    return False
-
-
-def landed(arc: Separation, box: Box, bits: int) -> State:
-    """Return phases, on the line, and relative speeds of a box of impacts; raise Unproved unless
-    they are inside the arc where the mass sticks, and positive.
+def passes(arc: Separation, state: State, cell: Cell, bits: int) -> Passes:
+    """Theorem. Let the last bounce that a cell brackets, at one epsilon, end in a state, and all
+    flights after it have gap > 0 at phi_s. Then what `Passes.sentence` says. Proof. a < 0 from the
+    last impact to phi_s, so by Lemma 1 (`bounce`) gap has no zero before a time at which it is > 0.
     """
-    for turns in (0, -1):
-        phases = lifted(box[0], turns, bits)
-        if arc.start[1] < phases[0] and phases[1] < arc.phase[0]:
-            speeds = _speeds(arc.at, phases, box[1], bits)
-            if speeds[0] <= 0:
-                raise Unproved("a speed is not proved to be positive")
-            return phases, speeds
-    raise Unproved("an impact is not proved to be where the mass sticks")
+    (epsilon, largest), (phases, (slow, fast)) = cell.epsilons, state
+    if epsilon != largest:
+        raise Unproved("one epsilon is expected")
+    time = arc.phase[0] - phases[1], arc.phase[1] - phases[0]
+    if time[0] <= 0 or arc.at.eta[1] * time[1] > 3:
+        raise Unproved("the last flight begins after phi_s, or is longer than its lemma allows")
+    if kicked(arc.at, phases, (epsilon * slow, epsilon * fast), bits)(time, 0).lo <= 0:
+        raise Unproved("the mass is not proved to be in flight at the separation phase")
+    return Passes(arc, epsilon, len(cell.bounces))
 
 
-def prove_superstable_motion(context: Context, reader: Reader) -> SuperstableMotion:
+def prove_superstable_motion(context: Context, reader: Reader) -> SuperstableMotion | Passes:
     """Rule `superstable-motion`: {separation, box: [phases, velocities], impacts: names of
     differential steps, cells: [{epsilon: [e, e'], bounces: [[t, t'], ...], ratio, rest}]}.
 
-    Conclusion: `superstable_motion`.
+    Conclusion: `superstable_motion`; ratio and rest may be null, both, for `passes`.
     """
     arc_of, box_of, impacts_of, cells_of = reader.fields("separation", "box", "impacts", "cells")
     phases, velocities = (side.range() for side in box_of.items(2, 2))
@@ -204,8 +231,10 @@ def prove_superstable_motion(context: Context, reader: Reader) -> SuperstableMot
     cells = []
     for cell in cells_of.items(least=1):
         epsilons, bounces, ratio, rest = cell.fields("epsilon", "bounces", "ratio", "rest")
-        times = [time.range() for time in bounces.items()]
-        cells.append(Cell(epsilons.range(), times, ratio.number(), rest.number()))
+        times = [time.range() for time in bounces.items(most=_MOST_BOUNCES)]
+        in_flight = ratio.is_null() and rest.is_null()
+        ending = None if in_flight else (ratio.number(), rest.number())
+        cells.append(Cell(epsilons.range(), times, ending))
     arc = context.step(arc_of, Separation)
     return superstable_motion(arc, (phases, velocities), impacts, cells)
 

@@ -48,131 +48,22 @@ eta) cos(eta s)/cos(pi d) < 1.3.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 
-from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import clock
 from proofs.trusted.kernel.arithmetic import Dual, Unproved, pi, rational
-from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.operations import sqrt
-from proofs.trusted.numbers import Range, between, ceil_text, floor_text, show
-from proofs.trusted.paper.s4_single.orbits import SADDLE, STICK, bits_of, distance, turn
-from proofs.trusted.paper.s4_single.windows import LEAVING, bracketed, excess_at, require_apart
+from proofs.trusted.numbers import Range
+from proofs.trusted.paper.s4_single.orbits import bits_of, distance, turn
 
-_MOST_NU = Fraction(3, 10)
-_HALF = Fraction(1, 2)
-_REACH = Fraction(5, 7)  # from pi, of the times at which lemma 8 looks
-
-
-@dataclass(frozen=True)
-class BelowWindows(Conclusion):
-    """Where stable short orbits are at fixed nu in [-3/10, 0), for all eta >= low.
-
-    With n eta < 1 exactly for n = 1, ..., len(ends) and eta between the two values that ends[n - 1]
-    enclose: the slope is 1 at the first, and 0 at the second, or that is 1/n. With n eta > 1
-    exactly for n = 1 and eta between two that `late` encloses: slope 1, and an earlier touch.
-    """
-
-    nu: Fraction
-    low: Fraction
-    ends: tuple[tuple[Range, Range], ...]
-    late: tuple[Range, Range]
-
-    def __post_init__(self) -> None:
-        require_apart([end for pair in (self.late, *self.ends) for end in reversed(pair)])
-
-    @property
-    def sentence(self) -> str:
-        listed = "; ".join(
-            f"n = {n}: ({ceil_text(max(saddle[1], self.low), 8)}, {floor_text(last[0], 8)})"
-            for n, (saddle, last) in enumerate(self.ends, start=1)
-        )
-        resonant = [n for n, (_, last) in enumerate(self.ends, start=1) if last[0] == last[1]]
-        tops = f" (to 1/n for n = {', '.join(map(str, resonant))})" if resonant else ""
-        return (
-            f"For nu = {show(self.nu)} (p > 0), plastic impacts and eta >= {show(self.low)}, "
-            f"{LEAVING} for n and eta as follows. With n eta < 1: for n = 1, ..., "
-            f"{len(self.ends)}, if eta is in one of as many disjoint open intervals, one for each "
-            f"n, from f' = 1 (saddle-node) up to f' = 0 (sticking){tops}, or what of it is above "
-            f"{show(self.low)}. With n eta > 1: for n = 1 and eta from {between(self.late[0], 15)} "
-            f"(saddle-node) to {between(self.late[1], 15)}, where the flight touches the table on "
-            "its way (grazing), both excluded. The former rounded inward, by less than 2e-8: "
-            f"{listed}."
-        )
-
-    @property
-    def quantities(self) -> Mapping[str, Range]:
-        named = {
-            f"eta_below_{name}_{n}": bounds
-            for n, pair in enumerate(self.ends, start=1)
-            for name, bounds in zip(("saddle", "last"), pair, strict=True)
-        }
-        return named | dict(zip(("eta_late_saddle", "eta_late_graze"), self.late, strict=True))
+MOST_NU = Fraction(3, 10)
+LATE = Fraction(3, 2), Fraction(2)  # between which eta is in lemma 8
+_REACH = Fraction(5, 7)  # from pi, of the times at which it looks
 
 
-def below_windows(context: Context, reader: Reader) -> BelowWindows:
-    """Rule `single-below-windows`: {nu, low, ends: [[saddle lo, hi, stick lo, hi] or [saddle lo,
-    hi] for n = 1, 2, ...], late: [saddle lo, hi, graze lo, hi], touch: a time}.
-
-    Hypotheses: -3/10 <= nu < 0 < low < 1; brackets of ends lie in (1/(2 n), 1/n), those of late in
-    (3/2, 2); at saddles excess at M = 1 is > 0 at the lower and < 0 at the upper end, at ends that
-    stick excess at M = 0; a window that sticks has 1 + |nu| <= n^2 |nu|, another (1 + |nu|) eta^2
-    >= |nu| at its saddle-node; windows reach beyond low; the n after the last has n low >= 1, or
-    n low > 1/2, 1 + |nu| <= n^2 |nu| and excess < 0 at M = 0, eta = low. The touch is in J; D +
-    (5/2) D'^2 < 0 there at graze lo, so that D < 0 on J, as D'' < -1/5; D > 0 there at graze hi.
-    Conclusion: `BelowWindows`. Proof. Lemmas 1 to 4 of `single-solution`, and 6 to 8.
-    """
-    nu_of, low_of, ends_of, late_of, touch_of = reader.fields("nu", "low", "ends", "late", "touch")
-    nu, least = nu_of.number(), low_of.number()
-    if not (-_MOST_NU <= nu < 0 < least < 1):
-        raise Unproved("-3/10 <= nu < 0 and 0 < low < 1 are expected")
-    ends = []
-    for n, entry in enumerate(ends_of.items(1, 1000), start=1):
-        ends.append(_window(nu, n, entry))
-        if ends[-1][1][0] <= least:
-            raise entry.fail("a window that is not proved to reach beyond the least eta")
-    after = len(ends) + 1
-    if after * least < 1:
-        stuck = 2 * after * least > 1 and _ends_stuck(nu, after)
-        if not stuck or excess_at(least, nu, after, STICK).hi >= 0:
-            raise Unproved(f"windows for n = {after} are not excluded")
-    late = late_of.numbers(4, 4)
-    saddle = _falling(nu, 1, SADDLE, (late[0], late[1]), (3 * _HALF, Fraction(2)))
-    graze = _graze(nu, (late[2], late[3]), touch_of.number())
-    return BelowWindows(nu, least, tuple(ends), (saddle, graze))
-
-
-def _window(nu: Fraction, n: int, entry: Reader) -> tuple[Range, Range]:
-    """Return the ends of a window with n eta < 1, by lemma 6."""
-    numbers, whole = entry.numbers(2, 4), (_HALF / n, Fraction(1, n))
-    saddle = _falling(nu, n, SADDLE, (numbers[0], numbers[1]), whole)
-    if len(numbers) == 4:
-        if not _ends_stuck(nu, n):
-            raise entry.fail("a window that is not proved to end where the mass sticks")
-        return saddle, _falling(nu, n, STICK, (numbers[2], numbers[3]), whole)
-    if len(numbers) == 3 or (1 - nu) * saddle[0] ** 2 < -nu:
-        raise entry.fail("a window that is not proved to end at 1/n")
-    return saddle, (whole[1], whole[1])
-
-
-def _ends_stuck(nu: Fraction, n: int) -> bool:
-    return 1 - nu <= n * n * -nu
-
-
-def _falling(nu: Fraction, n: int, end: int, bracket: Range, whole: Range) -> Range:
-    """Require that excess falls through 0 in a bracket inside the interval."""
-    if not whole[0] < bracket[0] < bracket[1] < whole[1]:
-        raise Unproved("a bracket of an end is not where its lemma looks")
-    bracketed(n, end, (bracket[1], nu), (bracket[0], nu))
-    return bracket
-
-
-def _graze(nu: Fraction, bracket: Range, time: Fraction) -> Range:
+def grazed(nu: Fraction, bracket: Range, time: Fraction) -> Range:
     """Require that the flight passes the table below the bracket and not above, by lemma 8."""
-    if not 3 * _HALF < bracket[0] < bracket[1] < 2:
+    if not LATE[0] < bracket[0] < bracket[1] < LATE[1]:
         raise Unproved("a bracket of grazing outside (3/2, 2)")
     bits = bits_of(bracket[1] - bracket[0], 1)
     from_pi = rational(time, bits) - pi(bits)

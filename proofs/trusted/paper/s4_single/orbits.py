@@ -117,6 +117,21 @@ def turn(eta: Fraction, n: int, bits: int) -> tuple[Enclosure, Enclosure]:
     return (pi(bits) * rational(n * eta, bits)).sincos()
 
 
+def excess_at(eta: Fraction, nu: Fraction, n: int, end: int, bits: int = COVER_BITS) -> Enclosure:
+    """Enclose excess at exact numbers."""
+    found: Enclosure = excess(rational(eta, bits), rational(nu, bits), turn(eta, n, bits), end)
+    return found
+
+
+def bracketed(
+    n: int, end: int, below: tuple[Fraction, Fraction], above: tuple[Fraction, Fraction]
+) -> None:
+    """Require that excess is < 0 at one point (eta, nu) and > 0 at another."""
+    bits = bits_of(max(abs(x - y) for x, y in zip(below, above, strict=True)), n)
+    if not excess_at(*below, n, end, bits).hi < 0 < excess_at(*above, n, end, bits).lo:
+        raise Unproved("an end of a window is not bracketed")
+
+
 # -- solutions and orbits --------------------------------------------------------------------------
 
 

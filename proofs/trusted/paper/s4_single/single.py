@@ -12,7 +12,6 @@ from fractions import Fraction
 
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper.formulas import Derived, Equal, Passage, Theorem, derived_row, theorem
-from proofs.trusted.paper.s4_single.below import BelowWindows
 from proofs.trusted.paper.s4_single.orbits import Solution
 from proofs.trusted.paper.s4_single.windows import EtaWindows, NuWindows
 from proofs.trusted.parameters import Parameters
@@ -174,11 +173,11 @@ def _figure_a(_: Parameters, found: Found) -> Decision:
     stuck = _counterexample(found, lambda x: x.sticks and shown(x, FIGURE_NU))
     hits = _counterexample(found, lambda x: x.hits and shown(x, -FIGURE_NU))
     known, asked = _proved(found, orbits), (FIGURE_NU, FIGURE_ETAS[0])
-    above = [x for x in found.all(EtaWindows) if (x.nu, x.low) == asked]
-    below = [x for x in found.all(BelowWindows) if (-x.nu, x.low) == asked]
-    if not (above and below):
+    windows = {x.nu: x for x in found.all(EtaWindows) if (abs(x.nu), x.low) == asked}
+    if len(windows) < 2:
         return undecided("no proof of all windows in eta, for both signs of p")
-    return decided(Verdict.REFUTED, stuck, hits, corrected=[*known, above[0], below[0]])
+    both = windows[FIGURE_NU], windows[-FIGURE_NU]
+    return decided(Verdict.REFUTED, stuck, hits, corrected=[*known, *both])
 
 
 def _figure_b(_: Parameters, found: Found) -> Decision:

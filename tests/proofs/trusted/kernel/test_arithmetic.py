@@ -13,7 +13,7 @@ from proofs.trusted.equations import sincos
 from proofs.trusted.kernel import arithmetic, elementary
 from proofs.trusted.kernel.arithmetic import Dual, Enclosure, Unproved, pi, rational
 from proofs.trusted.kernel.elementary import log
-from tests.effort import examples
+from tests.once import examples
 
 TRUTH_BITS = 4096
 PRECISIONS = (8, 24, 53, 64, 113, 400, 2000)

@@ -14,7 +14,7 @@ from proofs.trusted.kernel.composition import read_map
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.cycle import _stability, periodic_orbit
 from proofs.trusted.verify import Rejected, check
-from tests.effort import examples
+from tests.once import examples
 from tests.proofs.trusted.kernel.lemma_examples import text
 
 LOGISTIC = {"variables": ["x"], "values": ["16/5*x*(1 - x)"]}

@@ -19,7 +19,7 @@ from proofs.trusted.files import render
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.composition import read_map
 from proofs.trusted.kernel.enclose import enclosed, point_box
-from tests.effort import examples
+from tests.once import examples
 from tests.oracles.flights import Simulation, system_of
 from tests.proofs.trusted.kernel.lemma_examples import add_orbit, horseshoe
 from tests.proofs.trusted.kernel.lemma_examples import ball as ball_example
@@ -209,6 +209,7 @@ LIES = [  # what is false, the function, a box of states, the reason
     ("another wall first", clock(gaps=["2 - t", "1 - t"]), STATE, OTHER),
     ("another wall at once", clock(gaps=["2 - t", "2 - t"]), STATE, OTHER),
     ("another wall for some", clock(gaps=["2 - t", "2 + x - t"]), STATE, OTHER),
+    ("another wall before the last", clock(gaps=["2 + x - t", "2 + 1/20 - t"]), STATE, OTHER),
     ("another wall grazed", clock(gaps=["2 - t", "(t - 1)**2"]), STATE, OTHER),
     ("a gap undefined between", clock(gaps=["2 - t + 0*(1/(t - 1))"]), STATE, GRAZE),
     ("another gap undefined", clock(gaps=["2 - t", "3 - t + 0*(1/(t - 1))"]), STATE, GRAZE),

@@ -25,7 +25,7 @@ from proofs.trusted.kernel.lohner import Solutions, orthogonal
 from proofs.trusted.kernel.meter import Exhausted, metered
 from proofs.trusted.kernel.series import Series
 from proofs.trusted.verify import Rejected, check
-from tests.effort import examples
+from tests.once import examples
 from tests.oracles.ode import LONG, MANY, Solver
 from tests.proofs.trusted.kernel.flows import (
     DUFFING,

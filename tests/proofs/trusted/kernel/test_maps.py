@@ -15,7 +15,7 @@ from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import enclosed
 from proofs.trusted.rules import find_rule
 from proofs.trusted.verify import Rejected, check
-from tests.effort import examples
+from tests.once import examples
 from tests.proofs.trusted.kernel.lemma_examples import text
 from tests.proofs.trusted.kernel.systems import BALL
 

@@ -19,7 +19,7 @@ from proofs.trusted.kernel.formulas import on_tape
 from proofs.trusted.kernel.tails import Ray, Rays
 from proofs.trusted.kernel.trees import formula
 from proofs.trusted.rules import find_rule
-from tests.effort import examples
+from tests.once import examples
 from tests.oracles.judge import oracle
 from tests.proofs.trusted.kernel.systems import BALL, FAR, RESTING
 from tests.proofs.trusted.kernel.test_flight import CLOCK, clock, moving
@@ -162,6 +162,12 @@ LIES = [
     ("no axis", ("graze", CLOCK, {"box": FREE[:1], "axis": "2", "time": ["1", "2"]}), "from 1 to"),
     ("times that are one", touch("(t - 1)**2 + x", time=("1", "1")), "times between 0 and 1024"),
 ]  # fmt: skip
+
+
+def test_a_graze_is_one_in_its_times():
+    """Here x = 1/200 touches as well, but at t = 3."""
+    rule, data, witness = touch("((t - 1)**2 + x)*((t - 3)**2 + x + 1/200)")
+    assert "has a graze at a `t` in [0.75, 1.25]" in concluded(rule, data, **witness).sentence
 
 
 @pytest.mark.every

@@ -23,7 +23,7 @@ from proofs.trusted.kernel.head import read_function
 from proofs.trusted.kernel.meter import Exhausted
 from proofs.trusted.kernel.periodic import _meets, _require_apart
 from proofs.trusted.verify import Rejected, check, premises
-from tests.effort import examples
+from tests.once import examples
 from tests.proofs.methods.test_henon import CYCLES
 from tests.proofs.trusted.kernel.lemma_examples import LOGISTIC, henon
 

@@ -16,8 +16,8 @@ from proofs.trusted.kernel.normalform import Exponential, Function, Inverse, Nor
 from proofs.trusted.kernel.trees import Variable, formula
 from proofs.trusted.kernel.values import Equal
 from proofs.trusted.paper.formulas import Asked, Value, at, differ
-from tests.effort import examples
 from tests.intervals.oracle import arb
+from tests.once import examples
 from tests.oracles import algebra
 from tests.proofs.trusted.kernel.arb_formulas import value as by_arb
 from tests.proofs.trusted.kernel.test_formulas import expressions, points

@@ -6,16 +6,17 @@ from fractions import Fraction
 
 import pytest
 
+from proofs.trusted.certificate import Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper import find
-from proofs.trusted.paper.s34_circle.border import Border, Passes
-from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
+from proofs.trusted.paper.s34_circle.border import Border
+from proofs.trusted.paper.s34_circle.persistence import Passes, SuperstableMotion
 from proofs.trusted.parameters import PAPER
 from tests.oracles.judge import oracle
 from tests.proofs.trusted.paper.steps import apply, evidence, known_of
 
 pytestmark = pytest.mark.slow
-RESTS, PASSES = "superstable-motion-2", "passes-separation-1"
+RESTS, PASSES = "superstable-motion-2", "superstable-motion-3"
 
 
 def known():
@@ -68,18 +69,47 @@ def test_a_mass_that_passes_has_landed_on_the_arc():
             replace(passes, epsilon=Fraction(epsilon))
 
 
+def thrown(**changes):
+    """A witness that the mass flies beyond phi_s at once, edited, and what it begins with."""
+    witness = evidence("persistence").steps[RESTS]["witness"]
+    cell = {"epsilon": ["9/10", "9/10"], "bounces": [], "ratio": None, "rest": None}
+    return {**witness, "separation": "arc", "cells": [cell], **changes}
+
+
 @pytest.mark.parametrize(
     ("change", "reason"),
     [
-        (lambda arc: {"speed": (Fraction(1, 10**9), arc.speed[1])}, "in flight"),  # some are not
-        (lambda arc: {"phase": arc.arrival}, "after phi_s"),
-        (lambda arc: {"at": replace(arc.at, eta=(Fraction("0.2121"), Fraction(5)))}, "longer"),
+        (lambda arc: {"phase": arc.arrival}, "where the mass sticks"),
+        (lambda arc: {"speed": (Fraction(1, 10**9), arc.speed[1])}, "in the first box"),
+        (lambda arc: {"at": replace(arc.at, eta=(Fraction("0.2121"), Fraction(5)))}, "first box"),
+    ],
+)
+def test_what_flies_beyond_phi_s_has_landed_on_the_arc(change, reason):
+    """From a speed of 0.1352 at 4.64, with epsilon = 0.9, the first rebound goes beyond."""
+    arc = known()["separation-1"]
+    assert apply("superstable-motion", thrown(), {"arc": arc}).bounces == 0
+    with pytest.raises(Unproved, match=reason):
+        apply("superstable-motion", thrown(), {"arc": replace(arc, **change(arc))})
+
+
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        ({"epsilon": ["1/10", "1/10"]}, "in flight"),
+        ({"epsilon": ["0", "0"]}, "in flight"),
+        ({"epsilon": ["9/10", "10/11"]}, "one epsilon"),
+        ({"ratio": "1/2"}, "a string is expected"),
+        ({"rest": "6"}, "a string is expected"),
     ],
 )
 def test_all_that_has_landed_must_fly_beyond_phi_s(change, reason):
-    """From a speed of 0.1352 at 4.64, with epsilon = 0.9, the first rebound goes beyond."""
-    arc = known()["separation-1"]
-    witness = {"separation": "arc", "epsilon": "9/10", "bounces": []}
-    assert apply("passes-separation", witness, {"arc": arc}).bounces == 0
-    with pytest.raises(Unproved, match=reason):
-        apply("passes-separation", witness, {"arc": replace(arc, **change(arc))})
+    cell = {**thrown()["cells"][0], **change}
+    with pytest.raises((Unproved, Malformed), match=reason):
+        apply("superstable-motion", thrown(cells=[cell]), {"arc": known()["separation-1"]})
+
+
+def test_a_mass_passes_at_one_epsilon_after_bounces_alone():
+    arc, cells = known()["separation-1"], thrown()["cells"]
+    more = {**cells[0], "epsilon": ["9/10", "91/100"]}
+    with pytest.raises(Unproved, match="at one epsilon, after bounces"):
+        apply("superstable-motion", thrown(cells=[*cells, more]), {"arc": arc})

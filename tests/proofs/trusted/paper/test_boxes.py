@@ -13,7 +13,7 @@ import pytest
 from mpmath import diff, mpf
 
 from proofs.motion.many import next_impacts
-from proofs.motion.witness import FlightBox
+from proofs.motion.witness import Flights
 from proofs.plane.horseshoe import propose
 from proofs.plane.settling import settles, stays_stable, sticks
 from proofs.plane.steps import times_for
@@ -341,7 +341,7 @@ def test_flights_just_after_the_separation(low, holds):
     """phi_s is 6.0454239...: gap'' is 0 there at first, and no bound from below later on."""
     here = PAPER.place
     phases = F("6.04543"), F("6.06")
-    times = times_for(FlightBox.plastic(here, phases), 26.0)
+    times = times_for(Flights.plastic(Motion(here, phases)), (2, 3), 26.0)
     assert times[0] > F(1, 4)  # gap'' > 0 is seen for less
     motion = Motion(here, (F(low), phases[1]))
     assert motion.gap_of((F(0), times[0]), 2).lo <= 0 < motion.gap_of((F(0), times[0]), 3).lo

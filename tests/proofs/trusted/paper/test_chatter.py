@@ -105,9 +105,9 @@ def test_lemma_1_bounds_the_speed_by_the_range_of_the_push():
 def test_bounces_settle_without_a_bracket_where_they_are_weak():
     pushing = pushing_on(PAPER, separation(PAPER))
     settled = pushing.settle(point("0.01"), point("4.64"), point("0.135"))
-    assert not settled.bounces and Fraction("4.64") < settled.rest < Fraction("4.67")
+    assert not settled.bounces and Fraction("4.64") < settled.ending[1] < Fraction("4.67")
     settled = pushing.settle((Fraction(0), Fraction("0.2")), point("4.64"), point("0.135"))
-    assert settled.ratio < 1 and settled.rest < pushing.last
+    assert settled.ending[0] < 1 and settled.ending[1] < pushing.last
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ from mpmath import mp, mpf
 
 from proofs.motion.system import System
 from proofs.motion.witness import HORIZON
-from proofs.report.figures.transients import bars
+from proofs.report.figures.circle import bars
 from proofs.search import s34_circle as circle
 from proofs.search.steps import Prover
 from proofs.shell.groups import decide, wanted

@@ -12,8 +12,7 @@ from pathlib import Path
 import pytest
 
 from proofs.methods.arcs import follow, thin
-from proofs.motion.single_flight import _closed
-from proofs.motion.witness import first_step
+from proofs.motion.witness import closed, first_step
 from proofs.search.curves import Curves, seen_curves
 from proofs.shell.groups import produce
 from proofs.trusted.certificate import Malformed, Reader, texts
@@ -261,8 +260,8 @@ def test_touches_before_an_earlier_impact_are_refused():
     start = [F("1.42"), F("0.230927"), F("3.71823")]
     (traced,) = follow(touch(2, F(0)), ETA, start, F("1.4201"), step=F(1, 100))
     gap_of = gap_along(2, F(1), -1, traced.piece)
-    times = [*_closed(gap_of, first_step(gap_of, (2,)), F("3.6")), F("3.6")]
-    times += [*_closed(gap_of, F("3.84"), F("7.3")), F("7.3"), F("7.6")]
+    times = closed(gap_of, [first_step(gap_of, (2,))[0], F("3.6")])
+    times += [*closed(gap_of, [F("3.84"), F("7.3")]), F("7.6")]
     assert gap_of((F("7.6"), F("7.6")), 0).hi < 0
     witness = {"n": "2", "epsilon": "0", "pieces": [traced.witness], "times": [texts(times)]}
     with pytest.raises(Unproved, match="impact is not proved"):
@@ -276,7 +275,7 @@ def test_touches_that_would_come_after_the_impact_are_refused():
     start, epsilon = [F("0.2"), F("0.276977"), F("8.691")], F(1, 2)
     (traced,) = follow(touch(1, epsilon), ETA, start, F("0.2001"), step=F(1, 100))
     gap_of = gap_along(1, ratio(epsilon), 1, traced.piece)
-    times = [F(1, 50), *_closed(gap_of, F(1), F(6)), F(6), F("6.5")]
+    times = [F(1, 50), *closed(gap_of, [F(1), F(6)]), F("6.5")]
     assert first_windows(gap_of, times, 1)[0] == ((F(1, 50), F(1)), (F(6), F("6.5")))
     assert not any(oracle.distance(1, 0.5, 0.2, 0.277127, t / 50) <= 0 for t in range(1, 314))
     witness = {"n": "1", "epsilon": "1/2", "pieces": [traced.witness], "times": [texts(times)]}

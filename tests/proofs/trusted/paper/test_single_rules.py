@@ -20,7 +20,6 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s4_single import single
-from proofs.trusted.paper.s4_single.below import BelowWindows
 from proofs.trusted.paper.s4_single.orbits import Solution
 from proofs.trusted.paper.s4_single.windows import EtaWindows, NuWindows
 from proofs.trusted.parameters import PAPER, Place
@@ -42,6 +41,12 @@ def document():
 
 def steps_of(document, rule):
     return [step["witness"] for step in document["steps"].values() if step["rule"] == rule]
+
+
+def windows(document, shape):
+    """The witness of the windows in eta for nu > 0, for nu < 0 (below), or in nu."""
+    shapes = ("eta", "below", "nu")
+    return steps_of(document, "single-windows")[shapes.index(shape)]
 
 
 def derived(rule, witness, known=None):
@@ -174,8 +179,8 @@ def first_end(*numbers):
     ],
 )
 def test_windows_are_not_talked_into(document, rule, field, change):
-    (witness,) = steps_of(document, f"single-{rule}-windows")
-    refused(f"single-{rule}-windows", {**witness, field: change(witness[field])})
+    witness = windows(document, rule)
+    refused("single-windows", {**witness, field: change(witness[field])})
 
 
 def first_of(entry, *numbers):
@@ -187,7 +192,10 @@ def first_of(entry, *numbers):
 @pytest.mark.parametrize(
     ("rule", "field", "change", "reason"),
     [
-        ("eta", "ends", first_of(0, "1/2", "50001/100000"), "a bracket in"),
+        ("eta", "ends", first_of(0, "1/2", "50001/100000"), "where its lemma looks"),
+        ("eta", "ends", lambda x: [x[0][:2], *x[1:]], "to end at 1/n"),
+        ("eta", "nu", lambda x: "-1/5", "where its lemma looks"),
+        ("below", "nu", lambda x: "1/5", "where its lemma looks"),
         ("nu", "above", lambda x: [[x[0][0], ["1", "11/10"]], *x[1:]], "in .0, 1. is expected"),
         ("nu", "above", lambda x: [[None, x[0][1]], *x[1:]], "proved to be at .nu. >= 1"),
         ("nu", "early", lambda x: [f"1/{10**45}", *x[1:]], "an earlier impact is not proved"),
@@ -197,27 +205,27 @@ def first_of(entry, *numbers):
     ],
 )
 def test_windows_are_refused_for_their_reason(document, rule, field, change, reason):
-    (witness,) = steps_of(document, f"single-{rule}-windows")
+    witness = windows(document, rule)
     with pytest.raises(REFUSED, match=reason):
-        derived(f"single-{rule}-windows", {**witness, field: change(witness[field])})
+        derived("single-windows", {**witness, field: change(witness[field])})
 
 
 def test_a_window_has_a_length(document):
-    (witness,) = steps_of(document, "single-nu-windows")
-    found = derived("single-nu-windows", witness)
+    witness = windows(document, "nu")
+    found = derived("single-windows", witness)
     overlap = (1, (ONE / 2, ONE * 3 / 4), (ONE * 5 / 8, ONE * 7 / 8))
     with pytest.raises(Unproved, match="to have a length"):
         replace(found, above=(overlap,))
 
 
 def test_windows_are_apart_and_told_of(document):
-    (witness,) = steps_of(document, "single-eta-windows")
-    refused("single-eta-windows", {**witness, "low": "9/20", "ends": []})
-    found = derived("single-eta-windows", witness)
+    witness = windows(document, "eta")
+    refused("single-windows", {**witness, "low": "9/20", "ends": []})
+    found = derived("single-windows", witness)
     assert "n = 1, ..., 48" in found.sentence
     (flip, stick), *others = found.ends
-    (witness,) = steps_of(document, "single-below-windows")
-    below = derived("single-below-windows", witness)
+    witness = windows(document, "below")
+    below = derived("single-windows", witness)
     assert "n = 1, ..., 51" in below.sentence and "(to 1/n for n = 1, 2)" in below.sentence
     saddle, last = below.ends[2]
     for known, bad in (
@@ -230,6 +238,9 @@ def test_windows_are_apart_and_told_of(document):
     ):
         with pytest.raises(Unproved, match="apart"):
             replace(known, **bad)
+    for known, bad in ((found, {"late": below.late}), (below, {"late": None})):
+        with pytest.raises(Unproved, match="those for nu < 0"):
+            replace(known, **bad)
 
 
 def test_windows_at_an_amplitude_beyond_the_lemmas_are_not_proved():
@@ -237,10 +248,10 @@ def test_windows_at_an_amplitude_beyond_the_lemmas_are_not_proved():
     steps = s4_single.Single(s4_single.Prover(s4_single.System(PAPER.eta, PAPER.nu), 20, 100))
     name = steps.below_windows(Fraction("-0.09"), Fraction("0.2"))
     own = steps.prover.known[name]
-    assert derived("single-below-windows", steps.prover.steps[name]["witness"]) == own
+    assert derived("single-windows", steps.prover.steps[name]["witness"]) == own
     assert 1.98 < own.late[0][0] < own.late[1][1] < 2
     with pytest.raises(Unproved, match="-3/10"):
-        derived("single-below-windows", {**steps.prover.steps[name]["witness"], "nu": "-31/100"})
+        derived("single-windows", {**steps.prover.steps[name]["witness"], "nu": "-31/100"})
 
 
 # -- the claims ----------------------------------------------------------------------------------
@@ -267,6 +278,10 @@ def having(**fields):
     return lambda found: replace(found, **fields)
 
 
+def of_sign(sign, **fields):
+    return lambda found: replace(found, **fields) if sign * found.nu > 0 else found
+
+
 def sticking(found):
     """Pretend that the launch which has an earlier impact sticks."""
     return replace(found, acceleration=(-ONE, -ONE)) if found.early is not None else found
@@ -286,10 +301,10 @@ def sticking(found):
         (("P5",), Solution, moved(nu=Fraction("0.21"))),
         (("P6",), Solution, moved(eta=Fraction("0.238"))),
         (("P6",), Solution, moved(nu=Fraction("0.95"))),
-        (("P5",), EtaWindows, having(nu=Fraction("0.21"))),
-        (("P5",), EtaWindows, having(low=Fraction("0.02"))),
-        (("P5",), BelowWindows, having(nu=Fraction("-0.21"))),
-        (("P5",), BelowWindows, having(low=Fraction("0.02"))),
+        (("P5",), EtaWindows, of_sign(1, nu=Fraction("0.21"))),
+        (("P5",), EtaWindows, of_sign(1, low=Fraction("0.02"))),
+        (("P5",), EtaWindows, of_sign(-1, nu=Fraction("-0.21"))),
+        (("P5",), EtaWindows, of_sign(-1, low=Fraction("0.02"))),
         (("P6",), NuWindows, having(eta=Fraction("0.238"))),
         (("P6",), NuWindows, having(above=((1, (OFF, OFF), (ONE, ONE)),))),
     ],
@@ -320,8 +335,8 @@ def test_sentences_have_all_their_hypotheses(document):
 @pytest.mark.parametrize("eta", ["0.23", "0.237", "0.25"])
 def test_stable_orbits_that_stick_are_in_no_window(document, eta):
     """One impact a turn: where the mass lands the table holds it until phi_s, so f' = 0."""
-    (witness,) = steps_of(document, "single-eta-windows")
-    found = derived("single-eta-windows", witness)
+    witness = windows(document, "eta")
+    found = derived("single-windows", witness)
     assert not any(flip[0] <= Fraction(eta) <= stick[1] for flip, stick in found.ends)
     eta, nu = mpf(eta), mpf("0.2")
     leave = mp.asin(eta**2 / (nu * (1 - eta**2)))
