@@ -1,6 +1,6 @@
 """Where the tests get conclusions from: committed certificates, lemmas, provers, the checker.
 
-The only part of these tests, beside the names in `adapter`, that touches the project.
+The only part of these tests, beside the names in `judge`, that touches the project.
 """
 
 import importlib
