@@ -9,6 +9,7 @@ from mpmath import mp, mpf
 from intervals import Undecided
 from proofs.motion.chatter import Pushing
 from proofs.motion.system import System
+from proofs.trusted.paper.s34_circle.bounces import rest_phase
 from proofs.trusted.parameters import Place
 from tests.proofs.trusted.paper import reference
 
@@ -104,10 +105,39 @@ def test_lemma_1_bounds_the_speed_by_the_range_of_the_push():
 
 def test_bounces_settle_without_a_bracket_where_they_are_weak():
     pushing = pushing_on(PAPER, separation(PAPER))
-    settled = pushing.settle(point("0.01"), point("4.64"), point("0.135"))
-    assert not settled.bounces and Fraction("4.64") < settled.ending[1] < Fraction("4.67")
-    settled = pushing.settle((Fraction(0), Fraction("0.2")), point("4.64"), point("0.135"))
-    assert settled.ending[0] < 1 and settled.ending[1] < pushing.last
+    settled, rest = pushing.settle(point("0.01"), point("4.64"), point("0.135"))
+    assert not settled.bounces and Fraction("4.64") < rest < Fraction("4.67")
+    _, rest = pushing.settle((Fraction(0), Fraction("0.2")), point("4.64"), point("0.135"))
+    assert Fraction("4.67") < rest < pushing.last
+
+
+@pytest.mark.parametrize("epsilon", ["0", "0.01", "0.1", "0.2", "0.3"])
+@pytest.mark.parametrize("kick", ["0", "0.0001", "0.005", "0.02"])
+def test_the_phase_of_rest_is_one_of_the_lemma(epsilon, kick):
+    """By the push of the table between, at many phases: w shrinks by r, and all bounces end."""
+    phases, last = (Fraction("4.63"), Fraction("4.64")), separation(PAPER)
+    found = rest_phase(PAPER.place, phases, Fraction(kick), Fraction(epsilon), last)
+    assert found is not None and phases[1] <= found < last
+    along = [mpf("4.63") + (number(found) - mpf("4.63")) * k / 100 for k in range(101)]
+    push = [-reference.launch_acceleration(mpf("0.2121"), mpf("-0.2"), psi) for psi in along]
+    ratio = mpf(epsilon) * mp.sqrt(max(push) / min(push))
+    assert ratio < 1
+    assert mpf("4.64") + 2 * mpf(kick) / (min(push) * (1 - ratio)) <= number(found)
+
+
+@pytest.mark.parametrize(
+    ("phases", "kick", "epsilon", "last"),
+    [
+        ("4.63 4.64", "0.02", "0.99", "6"),  # bounces hardly shrink
+        ("4.63 4.64", "0.02", "1.5", "6"),
+        ("4.63 4.64", "0.9", "0.1", "6"),  # they end beyond the arc
+        ("4.63 4.64", "0.02", "0.2", "4.65"),
+        ("3.3 4.64", "0.02", "0.2", "6"),  # before the arc the table does not push
+    ],
+)
+def test_where_bounces_may_not_end_there_is_no_phase_of_rest(phases, kick, epsilon, last):
+    numbers = tuple(map(Fraction, phases.split()))
+    assert rest_phase(PAPER.place, numbers, *map(Fraction, (kick, epsilon, last))) is None
 
 
 @pytest.mark.parametrize(
