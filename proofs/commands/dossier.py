@@ -48,7 +48,7 @@ def _fates(of: Parameters, budget: Budget) -> Iterator[str]:
 
 def _circle(of: Parameters, budget: Budget) -> Iterator[str]:
     """Cut the circle into stretches of the plastic map."""
-    from proofs.report.markup import markdown_table
+    from proofs.report.page import markdown_table
     from proofs.search.portrait import HEAD, rows, stretches
 
     system = System(of.eta, of.nu)

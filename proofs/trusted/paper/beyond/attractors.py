@@ -19,8 +19,6 @@ from proofs.trusted.paper.beyond.returning import (
     ReturningMotion,
     StickingMotion,
     SticksOnce,
-    sticking_motion,
-    sticks_once,
 )
 from proofs.trusted.paper.s34_circle.landing import Lands, NeverImpacts, Separation
 from proofs.trusted.parameters import Parameters, Place
@@ -201,13 +199,13 @@ def prove_sticking_motion(
 
     separation, landing: names of steps, or null; slopes: a step of that rule; domain: two of its
     points; beyond: null, or as a cell. Conclusion: `AtRest` without all of them; `AllStick` for a
-    separation alone, where that holds; `sticks_once` where landing is a `stable-orbit` or a
-    `never-impacts` step; else `sticking_motion`.
+    separation alone, where that holds; `SticksOnce` where landing is a `stable-orbit` or a
+    `never-impacts` step; `ReturningMotion` where there is a beyond; else `StickingMotion`.
     """
     separation_of, cells_of, beyond_of, landing_of = reader.fields(
         "separation", "cells", "beyond", "landing"
     )
-    parts = [read_part(context, cell) for cell in cells_of.items(0, MOST_CELLS)]
+    parts = tuple(read_part(context, cell) for cell in cells_of.items(0, MOST_CELLS))
     is_plain = not parts and beyond_of.is_null() and landing_of.is_null()
     if is_plain and separation_of.is_null():
         return AtRest(context.place)
@@ -218,10 +216,12 @@ def prove_sticking_motion(
     beyond = None if beyond_of.is_null() else read_part(context, beyond_of)
     landing = None if landing_of.is_null() else context.step(landing_of, Conclusion)
     if isinstance(landing, StableOrbit | NeverImpacts) and beyond is None:
-        return sticks_once(arc, parts, landing)
+        return SticksOnce(arc, parts, landing)
     if not isinstance(landing, Lands | None):
         raise landing_of.fail("names no step about where the last impact is")
-    return sticking_motion(arc, parts, beyond, landing)
+    if beyond is None:
+        return StickingMotion(arc, parts, landing)
+    return ReturningMotion(arc, parts, beyond, landing)
 
 
 # -- X2: chaos -------------------------------------------------------------------------------------
