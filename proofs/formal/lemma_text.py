@@ -1,6 +1,6 @@
 """The Coq text of lemmas, that `lemmas` fills in."""
 
-HEAD = """(* Written by python -m proofs formal from the certificate with the SHA-256
+HEAD = """(* Written by python -m proofs formal from the certificate with the digest
    {digest}.
    Not trusted: coqc proves every line. To be read: Impact.v, and the theorems stated here. *)
 From Coq Require Import Reals ZArith Psatz Lia List.
