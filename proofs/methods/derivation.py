@@ -78,6 +78,10 @@ class Derivation:
                 table.update(entries)
             raise
 
+    def conclusion(self, name: str) -> Conclusion:
+        """Return what a step concludes."""
+        return self.known[name]
+
     def document(self, *claims: str) -> dict[str, Any]:
         """Return what a certificate of some steps says, with what they need.
 
