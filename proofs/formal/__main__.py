@@ -24,13 +24,13 @@ from proofs.formal import cases, coqc, graphs, rebounds
 from proofs.formal.hints import NoHint
 from proofs.formal.plan import CLAIMS, plan
 from proofs.formal.written import Case, NoTheorem, Theorem, ended
-from proofs.report.accepted import RECORD, digest, recorded
+from proofs.report.accepted import RECORD, recorded
 from proofs.shell.answers import Answer, machine_text
 from proofs.shell.cli import Parser, progress, share, whole
 from proofs.shell.files import check_folder, check_targets, refusing, write_target, writing
 from proofs.shell.screen import say
 from proofs.trusted.certificate import Malformed
-from proofs.trusted.files import read
+from proofs.trusted.files import digest, read
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.meter import Exhausted
 from proofs.trusted.verify import Rejected, check

@@ -19,6 +19,7 @@ from keyword import iskeyword
 from intervals import fraction
 from proofs.trusted.kernel.expression import FUNCTIONS
 from proofs.trusted.kernel.trees import formula
+from proofs.trusted.numbers import show
 
 _TOKEN = re.compile(
     r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
@@ -82,7 +83,7 @@ def canonical(text: str, time: str = "") -> str:
         raise GrammarError(f"a formula is a text, not {text!r}{plain}")
     python = " ".join(_python(text, time))
     try:
-        tree = ast.parse(python, mode="eval").body
+        tree = _parsed(python)
     except SyntaxError:
         raise GrammarError(f"not a formula: {_short(text)}") from None
     try:
@@ -144,8 +145,7 @@ def _python(text: str, time: str) -> Iterator[str]:
             hint = _OTHERS.get(word or "", "write * for a product")
             raise GrammarError(f"{_at(text, place)}: {hint}")
         if number:
-            value = exact(number)
-            yield str(value) if value.denominator == 1 else f"({value})"
+            yield f"({show(exact(number))})"
         elif not word:
             if op == "=":
                 raise GrammarError(f"{_at(text, place)}: a formula, no equation, is expected")
@@ -227,8 +227,8 @@ def _power(node: ast.BinOp, text: str) -> ast.expr:
 def _number(node: ast.expr) -> Fraction | None:
     """Return what a formula of numbers alone is."""
     match node:
-        case ast.Constant(value=int(integer)):
-            return Fraction(integer)
+        case ast.Name(id=number) if number[0].isdigit():
+            return Fraction(number)
         case ast.UnaryOp(op=ast.USub(), operand=operand):
             value = _number(operand)
             return None if value is None else -value
@@ -239,4 +239,11 @@ def _number(node: ast.expr) -> Fraction | None:
 
 
 def _parsed(text: str) -> ast.expr:
-    return ast.parse(text, mode="eval").body
+    """Return the tree, where a number is a name that is its text: Python's would be a float."""
+
+    class Spelling(ast.NodeTransformer):
+        def visit_Constant(self, node: ast.Constant) -> ast.AST:
+            return ast.Name(text[node.col_offset : node.end_col_offset])
+
+    tree: ast.expr = Spelling().visit(ast.parse(text, mode="eval").body)
+    return tree

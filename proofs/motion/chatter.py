@@ -53,11 +53,13 @@ class Pushing:
     bits: int = COVER_BITS
     grid: int = 2**24
 
-    def settle(self, epsilon: Range, phases: Range, speeds: Range) -> Cell:
+    def settle(
+        self, epsilon: Range, phases: Range, speeds: Range, leave: Range | None = None
+    ) -> Cell:
         """Prove that impacts at these phases, with these speeds before, end in rest before `last`.
 
-        Bounces are enclosed one by one until Lemma 2 applies; Undecided if a bounce may leave the
-        arc, or the bounces become so many that it will not apply.
+        Bounces are enclosed one by one until Lemma 2 applies, or the mass flies at all phases of
+        `leave`; Undecided if a bounce may leave the arc, or they become so many that neither is so.
         """
         bounces: list[Range] = []
         while len(bounces) < _MOST_BOUNCES:
@@ -65,6 +67,8 @@ class Pushing:
             ending = self.ending(epsilon[1], phases, kicks[1])
             if ending is not None:
                 return Cell(epsilon, bounces, ending)
+            if leave is not None and self.flies(phases, kicks, leave):
+                return Cell(epsilon, bounces, None)
             time, (phases, speeds) = self.bounce(phases, kicks)
             bounces.append(time)
         raise Undecided(f"{_MOST_BOUNCES} bounces and no rest")

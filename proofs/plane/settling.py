@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
 from itertools import islice
@@ -31,7 +31,7 @@ from proofs.trusted.parameters import Place
 
 Floats = NDArray[np.float64]
 _FARTHEST = 70.0
-_SOON = 3 / 7  # eta at most, for rule `settles`
+_SOON = 3 / 7  # eta at most, where all masses seem to stick
 _SOONER = 7  # than two turns
 _PLACES = 6  # decimals of phases
 _ROOM = Fraction(1, 10**5)  # around phases that are seen
@@ -115,18 +115,18 @@ def _sticks_at_centre(box: Place) -> bool:
 
 
 def rests(box: Place) -> Steps:
-    """Return the steps for rule `settles`, the mass being at rest."""
+    """Return the steps where the mass is at rest."""
     made = Steps(box)
     try:
         AtRest(box)
     except Unproved as failure:
         raise Undecided(str(failure)) from None
-    made.add("settles", {"separation": None})
+    made.add("sticking-motion", _witness(None))
     return made
 
 
 def settles(box: Place) -> Steps:
-    """Return the steps for rule `settles`; Undecided where motions seem to go on."""
+    """Return the steps where all motions rest or stick; Undecided where they seem to go on."""
     with suppress(Undecided):
         return rests(box)
     if box.nu[0] < 0 or box.eta[1] > _SOON:
@@ -137,8 +137,23 @@ def settles(box: Place) -> Steps:
     later = last > float(_separations(box).min()) or float(arrival[1]) - last > _SOONER
     if early is not None or later:
         raise Undecided("the flight from the separation is not seen to end soon on the arc")
-    made.add("settles", {"separation": name})
+    made.add("sticking-motion", _witness(name))
     return made
+
+
+def _witness(
+    separation: str | None,
+    cells: Sequence[Cell] = (),
+    beyond: Cell | None = None,
+    landing: str | None = None,
+) -> dict[str, Any]:
+    """Write what the rule `sticking-motion` reads."""
+    return {
+        "separation": separation,
+        "cells": [cell.witness for cell in cells],
+        "beyond": beyond and beyond.witness,
+        "landing": landing,
+    }
 
 
 # -- motions that stick ----------------------------------------------------------------------------
@@ -184,13 +199,7 @@ def _returning(box: Place, up_to: float | None) -> tuple[Steps, float | None]:
     if early is not None:
         cuts = _rounded(early, float(_start(box).max()) + after + _AFTER)
         landing = made.add("lands", {"separation": name, "cuts": texts(cuts), "turns": "0"})
-    witness = {
-        "separation": name,
-        "cells": [cell.witness for cell in cells],
-        "beyond": beyond and beyond.witness,
-        "landing": landing,
-    }
-    made.add("sticking-motion", witness)
+    made.add("sticking-motion", _witness(name, cells, beyond, landing))
     return made, None
 
 

@@ -16,11 +16,10 @@ from proofs.report import graph
 from proofs.report.atlases import Atlas
 from proofs.report.checker import Checker
 from proofs.report.dependencies import RESTS
-from proofs.report.differences import marked
 from proofs.report.figures.figure import Figure
 from proofs.report.findings import Finding, Findings, Statement, Step
 from proofs.report.formulas import lines, mathml
-from proofs.report.layout import Block, block, enclosure, sentences
+from proofs.report.layout import Block, block, enclosure, marked, sentences
 from proofs.report.names import (
     DEFINITIONS,
     MEANINGS,

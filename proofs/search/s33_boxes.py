@@ -56,7 +56,7 @@ def _covered(prover: ReboundProver, box: Place, sets: Sets, attempts: Iterator[i
     if overshoot((*sets[0], *sets[1]), image_phases(box, prover.velocities)) <= 0:
         raise Unproved("an edge falls short at a corner of the box")
     with suppress(Unproved):
-        return [prover.horseshoe(box, sets)]
+        return [prover.crossing(box, sets)]
     halves = _halves(prover, box, sets)
     return [name for half in halves for name in _covered(prover, half, sets, attempts)]
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import random
 from collections.abc import Iterator
 from contextlib import suppress
 from fractions import Fraction
@@ -85,14 +84,8 @@ def prove_cycle(
     least, reach = box(1, 1), box(away[0], away[1])
     half = [rounded(_HALF * x / max(least) + y) for x, y in zip(least, reach, strict=True)]
     around = [texts((x - r, x + r)) for x, r in zip(state, half, strict=True)]
-    name = prover.derive(
-        "stable-cycle",
-        function=function_of(at),
-        box=around,
-        period=str(period),
-        rounds=str(rounds),
-    )
-    return name, prover.get(name, StableCycle)
+    witness = {"function": function_of(at), "box": around}
+    return prover.derive("stable-cycle", witness | {"period": str(period), "rounds": str(rounds)})
 
 
 def seen_from(at: Place, state: State, period: int) -> tuple[State, float]:
@@ -132,11 +125,9 @@ def around_image(step: Differential) -> list[Range]:
 
 def _candidates(system: System, epsilon: float, tries: int) -> Iterator[list[Floats]]:
     """Yield about the states of periodic orbits that simulated motions tend to."""
-    from proofs.motion.transients import GOING, Motions
+    from proofs.motion.transients import GOING, Motions, random_impacts
 
-    generator = random.Random(1)
-    starts = [(generator.uniform(0, math.tau), generator.uniform(0, 0.4)) for _ in range(tries)]
-    motions, path = Motions(system, epsilon, starts), []
+    motions, path = Motions(system, epsilon, random_impacts(tries)), []
     motions.follow(_IMPACTS)
     for _ in range(_LONGEST + 1):
         path.append([*zip(motions.phases.tolist(), motions.speeds.tolist(), strict=True)])

@@ -16,11 +16,11 @@ from typing import Any
 
 from proofs.report import current
 from proofs.report.accepted import Accepted, accepted
-from proofs.shell import manifest, runner
+from proofs.shell import runner
 from proofs.shell.cli import Parser, heard, progress
 from proofs.shell.entry import workers
 from proofs.shell.files import refusing, write_files, write_target, writing
-from proofs.shell.groups import FILES, Made, produce, row_of, wanted
+from proofs.shell.groups import FILES, MANIFEST_NAME, Made, entered, produce, row_of, wanted
 from proofs.shell.screen import Decided, say, show_verdicts
 from proofs.trusted.certificate import LEDGER, Malformed
 from proofs.trusted.files import read, render
@@ -181,7 +181,7 @@ def main(arguments: list[str] | None = None) -> int:
     with refusing(parser, options.out):
         with writing(options.out) as put:
             put("ledger.json", text)
-            put(manifest.NAME, manifest.entered(options.out, certificates))
+            put(MANIFEST_NAME, entered(options.out, certificates))
         pages = _pages(options.out, settled, fresh)
     shown = [
         f"{each.job.name}: {how} in {each.seconds:.1f} s"
@@ -207,7 +207,7 @@ def _unchanged(folder: Path, asked: Iterable[str]) -> tuple[str, set[str], list[
             return None
     except (OSError, ValueError, KeyError, TypeError):
         return None
-    again = f"python -m proofs check {folder}/{manifest.NAME} checks it again"
+    again = f"python -m proofs check {folder}/{MANIFEST_NAME} checks it again"
     return text, pages, [f"{folder}: nothing has changed since it was checked; {again}"]
 
 

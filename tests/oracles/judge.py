@@ -90,6 +90,9 @@ _MORE = {  # properties that sentences or rows rest on
     "InvariantSet": ("shift", "sentence"),
     "Subshift": ("factors",),
     "StableSingles": ("is_complete",),
+    "StickingMotion": ("cells",),
+    "SticksOnce": ("cells",),
+    "ReturningMotion": ("cells", "contraction"),
 }
 _PARAMETERS = (
     "eta", "nu", "left", "right", "interval", "slopes", "ratios", "printed_s0", "epsilon",

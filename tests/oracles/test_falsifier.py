@@ -92,7 +92,15 @@ def require_true(wanted, seed, **options):
 
 
 CLAIMS = {"H2", "H4", "H8", "H12", "H16", "M5", "M9", "N2", "P3", "R3", "S5", "S11", "A2", "G4"}
-RULES = {"covers", "h-set", "image", "separation", "settles", "stable-singles", "zero"}
+RULES = {
+    "covers",
+    "h-set",
+    "image",
+    "separation",
+    "sticking-motion",
+    "stable-singles",
+    "unique-zero",
+}
 
 
 def test_what_is_accepted_of_edited_documents_is_true():

@@ -249,9 +249,9 @@ EntropyBound: cells.*.* + 1/10; cells.1 half; cells reverse
 Grazing: phases off; time off; root off; turn + 2; below not; jumps_or_not
 Pieces: arcs drop 2; arcs from 2; region.0 + 1/4
 EntropyRange: entropy off; growth + -1; lower.growth + 1; pieces.arcs drop 2
-Expansion: rate = 2; rate = 1; scales.* = 1; scales from 1
 Between: full + 1; images off; grazes reverse
 Cycles: counts.0.* + 1; words twice; words.*.0 + 50; expansion.rate = 2
+Cycles: expansion.rate = 1; expansion.scales.* = 1; expansion.scales from 1
 Coding: expansion.rate = 2; entropy.growth + -1; expansion.pieces.arcs from 2
 StayingSet: cells reverse; slopes off; cells off; cells drop -1; region = [["1.11", "1.32"]]
 StayingSet: onward.0 drop -1; expansion = 1; growth = 3 4; whole not; other_orbit
@@ -287,7 +287,6 @@ Equal: right text (...) + 1/1000000; left text 2*(...) + 1
 Series: coefficients.-1 text (...) + 1/1000
 Expressions: expressions.0.1 text (...) + 1/1000; expressions.-1.1 text 2*(...) + 1
 Value: bounds off
-Zero: bracket off; bracket point; function text (...)**2 + 1
 UniqueZero: box.* away
 Image: bounds.* away
 Trapped: boxes.*.0 away
@@ -312,7 +311,7 @@ OnlyTouches: nu = 1; eta = 0.9
 FlightsEnd: nu = -0.2
 ComesToRest: nu = 1; nu = -0.2; epsilon = 0.999
 ReturningMotion: cells off; cells drop -1; contraction = 1; contraction = 1/1000000
-ReturningMotion: beyond short; arc.phase off
+ReturningMotion: beyond.points short; arc.phase off
 SticksOnce: cells off; end.cells off; arc.phase off
 StickingMotion: landing = null; cells off; cells drop -1; arc.phase off
 Arc: pieces odd; pieces.*.0 beside; points.* later

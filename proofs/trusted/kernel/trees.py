@@ -1,10 +1,11 @@
 """Formulas as trees: their one reader, their one printer, and substitution.
 
-A text is in Python's notation: + - * / and ** with an integer exponent other than 0, integers, pi,
-sqrt, exp, log, sin, cos, atan, names of variables of at most 12 characters. D(F, x, y) is the
-derivative of F by x and then by y; at(F, x=G, y=H), F with G and H in the places of x and y at
-once, binds x and y in F, where they are named _1, _2 and so on, whatever the text calls them. As
-usual - and / are taken from the left, -x**2 is -(x**2), and a/b*c is (a/b)*c.
+A text is in Python's notation: + - * / and ** with an integer exponent other than 0, integers,
+decimals of at most 40 places, which are exact too, pi, sqrt, exp, log, sin, cos, atan, names of
+variables of at most 12 characters. D(F, x, y) is the derivative of F by x and then by y; at(F, x=G,
+y=H), F with G and H in the places of x and y at once, binds x and y in F, where they are named _1,
+_2 and so on, whatever the text calls them. As usual - and / are taken from the left, -x**2 is
+-(x**2), and a/b*c is (a/b)*c.
 
 What is printed is printed from the tree. Printed text, read again, is the same tree.
 """
@@ -15,17 +16,21 @@ import ast
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import cached_property
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.expression import FUNCTIONS
 from proofs.trusted.kernel.meter import METER
+from proofs.trusted.numbers import show
 
 _MAX_LENGTH = 12_000
 _MAX_DEPTH = 150
 _MAX_POWER = 1000
-_TEXT = re.compile(r"(?:[-+*/(),= ]|[A-Za-z_]\w*+|[0-9]++(?![A-Za-z_]))*+", re.ASCII)
+_TEXT = re.compile(
+    r"(?:[-+*/(),= ]|[A-Za-z_]\w*+|[0-9]++(?:\.[0-9]{1,40}+)?+(?![\w.]))*+", re.ASCII
+)
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,11}")
 _BOUND = re.compile(r"_[1-9][0-9]{0,3}")
 _WORDS = {*FUNCTIONS, "pi", "D", "at"}
@@ -54,9 +59,9 @@ class Tree:
 
 @dataclass(frozen=True)
 class Number(Tree):
-    """An integer >= 0."""
+    """An integer, or a decimal, >= 0."""
 
-    value: int
+    value: Fraction | int
 
 
 @dataclass(frozen=True)
@@ -166,7 +171,7 @@ def read_tree(reader: Reader) -> Tree:
     try:
         if not _TEXT.fullmatch(text):
             raise Unproved("a character that is in no formula")
-        tree = _tree(ast.parse(text, mode="eval").body, _MAX_DEPTH)
+        tree = _tree(ast.parse(text, mode="eval").body, text, _MAX_DEPTH)
         if any(map(_BOUND.fullmatch, tree.free)):
             raise Unproved("a variable without a name")
         return tree
@@ -182,17 +187,18 @@ def formula(text: str) -> Tree:
     return read_tree(Reader(text))
 
 
-def _tree(node: ast.AST | None, depth: int) -> Tree:
+def _tree(node: ast.AST | None, text: str, depth: int) -> Tree:
     if depth == 0:
         raise Unproved(f"a formula nested more than {_MAX_DEPTH} deep")
 
     def inner(part: ast.AST) -> Tree:
-        return _tree(part, depth - 1)
+        return _tree(part, text, depth - 1)
 
     tree: Tree
     match node:
-        case ast.Constant(value=int(number)) if type(number) is int:
-            tree = Number(number)
+        case ast.Constant(col_offset=start, end_col_offset=end) if text[start].isdigit():
+            number = Fraction(text[start:end])  # the value would be a float
+            tree = Number(number if number.denominator > 1 else int(number))
         case ast.Name(id=name):
             tree = Pi() if name == "pi" else Variable(_name(name))
         case ast.UnaryOp(op=ast.USub(), operand=operand):
@@ -257,7 +263,7 @@ class Printer:
         METER.get().spend(2)
         match tree:
             case Number(value=value):
-                return str(value), ATOM
+                return show(value) if isinstance(value, Fraction) else str(value), ATOM
             case Pi() | Variable():
                 return self.symbol("pi" if isinstance(tree, Pi) else tree.name), ATOM
             case Power(exponent=n, parts=(base,)):

@@ -10,7 +10,7 @@ from proofs.methods.grammar import GrammarError, as_typed, canonical
 from tests.oracles.formulas import compiled
 
 TYPED = {
-    "1 - 1.4*x^2 + y": "1 - 7/5*x**2 + y",
+    "1 - 1.4*x^2 + y": "1 - 1.4*x**2 + y",
     "x^-1": "x**(-1)",
     "x^0.5": "sqrt(x)",
     "x^1.5": "x*sqrt(x)",
@@ -21,10 +21,11 @@ TYPED = {
     "atan(x)": "atan(x)",
     "cosh(x)": "(exp(x) + exp(-x))/2",
     "y'' + 2*y'": "D(y, t, t) + 2*D(y, t)",
-    "1e-3*x": "1/1000*x",
+    "1e-3*x + 1/4": "0.001*x + 1/4",
     "+x": "x",
     " x ": "x",
-    ".5": "1/2",
+    ".5": "0.5",
+    "0.00001*x^1.5": "0.00001*(x*sqrt(x))",
     "A*Sin2 + Omega''": "a_*sin2_ + D(omega_, t, t)",
     "lambda*x + Lambda": "lambda_*x + lambda__",
 }

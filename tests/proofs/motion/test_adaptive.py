@@ -12,8 +12,7 @@ from proofs.motion.system import System
 from proofs.motion.witness import Flights
 from proofs.plane.steps import impact_times
 from proofs.search.image import Image, image
-from proofs.stress.grazing import graze
-from proofs.stress.truth import BITS
+from proofs.stress.truth import BITS, graze
 from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.enclose import enclosed

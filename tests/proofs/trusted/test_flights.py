@@ -30,6 +30,12 @@ def cosine(time, order):
     return (cos, -sin, -cos, sin)[order % 4]
 
 
+def spread(time, order):
+    """cos t + u for all |u| <= 1/5, and its derivatives."""
+    value = cosine(time, order)
+    return value if order else value + Enclosure.of(F("-0.2"), F("0.2"), BITS)
+
+
 def parabola(time, order):
     """t (1 - t)."""
     t = Enclosure.of(*time, BITS)
@@ -68,6 +74,16 @@ def test_a_bend_on_a_longer_interval_may_do():
 )
 def test_a_bracket_has_the_signs_plus_and_minus(time, whether):
     assert brackets(cosine, tuple(map(F, time))) is whether
+
+
+def test_what_holds_for_a_part_of_the_launches_is_not_enough():
+    assert brackets(spread, (F(1), F(2)))
+    assert not brackets(spread, (F("1.5"), F(2)))  # cos 1.5 = 0.07
+    assert not brackets(spread, (F(1), F("1.65")))  # cos 1.65 = -0.08
+    with pytest.raises(Unproved, match="negative at the last time"):
+        open_windows(spread, [F(1), F("1.65")])
+    with pytest.raises(Unproved, match="leave the table"):  # (t (1 - t))' is < 0 for t > 1/2
+        first_windows(parabola, [F("0.75"), F("1.1")], 1)
 
 
 @pytest.mark.parametrize("time", [("0.1", "0.2"), ("0.5", "3"), ("2", "5"), ("0", "7")])

@@ -10,8 +10,7 @@ from fractions import Fraction
 
 import pytest
 
-from proofs.shell.groups import produce
-from proofs.shell.manifest import NAME
+from proofs.shell.groups import NAME, produce
 from proofs.trusted import paper as catalogue
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved

@@ -107,11 +107,11 @@ def second_iterate():
 
 
 def cubic():
-    """x^3 - 3 x + 1: three roots, each in an interval where the cubic is monotone; bounds."""
+    """x^3 - 3 x + 1: where it is monotone, bounds."""
     file = Lemmas()
     for side, sign in ((("-2", "-11/10"), 1), (("-9/10", "9/10"), -1), (("11/10", "2"), 1)):
-        file.root(CUBIC, sign, x=side)
-    file.zero(CUBIC, file.value(CUBIC, ("-2", "4"), x=("-2", "2")), ("-2", "2"))
+        file.sign(f"D({CUBIC}, x)", sign, x=side)
+    file.value(CUBIC, ("-2", "4"), x=("-2", "2"))
     file.sign(CUBIC, 1, x=("8/5", "3"))
     file.value(f"D({CUBIC}, x)", ("-4", "10"), x=("-1", "2"))
     return file

@@ -58,7 +58,9 @@ def extended(inner):
     )
 
 
-leaves = st.sampled_from(NAMES).map(Variable) | st.integers(0, 10**20).map(Number) | st.just(Pi())
+decimals = st.builds(lambda n, k: Fraction(n, 10**k), st.integers(0, 10**45), st.integers(0, 40))
+numbers = (st.integers(0, 10**20) | decimals).map(Number)
+leaves = st.sampled_from(NAMES).map(Variable) | numbers | st.just(Pi())
 trees = st.recursive(leaves, extended, max_leaves=12)
 
 
@@ -203,6 +205,14 @@ def test_cases(text, printed):
 
 @pytest.mark.parametrize("text", ["(" * 9000, "-" * 11_000 + "x", "x" + "**2" * 3000, "a" * 11_999])
 def test_long_and_deep_texts_are_refused_soon(text):
+    with pytest.raises(Malformed):
+        formula(text)
+
+
+@pytest.mark.parametrize(
+    "text", ["1.", ".5", "1.2.3", "1.5e3", "0.5x", f"1.{'0' * 41}", "x**2.0", "1_0.5", "x.5"]
+)
+def test_other_numbers_are_refused(text):
     with pytest.raises(Malformed):
         formula(text)
 
