@@ -90,6 +90,8 @@ _MORE = {  # properties that sentences or rows rest on
     "InvariantSet": ("shift", "sentence"),
     "Subshift": ("factors",),
     "StableSingles": ("is_complete",),
+    "GrazingCurve": ("amplitudes",),
+    "Meeting": ("amplitude",),
     "StickingMotion": ("cells",),
     "SticksOnce": ("cells",),
     "ReturningMotion": ("cells", "contraction"),

@@ -112,9 +112,9 @@ def test_the_intervals_meet():
 
 
 EDITS = [
-    (("function", "epsilon", 1), add("1/1000")),
-    (("function", "eta"), lambda ends: [add("1/1000")(end) for end in ends]),
-    (("box",), lambda box: box[::-1]),
+    (("orbit", "function", "epsilon", 1), add("1/1000")),
+    (("orbit", "function", "eta"), lambda ends: [add("1/1000")(end) for end in ends]),
+    (("orbit", "box"), lambda box: box[::-1]),
 ]
 
 
