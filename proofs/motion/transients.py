@@ -16,7 +16,7 @@ from statistics import median
 import numpy as np
 from numpy.typing import NDArray
 
-from proofs.motion.many import Floats, float_launch, next_impacts
+from proofs.motion.many import Floats, next_impacts
 from proofs.motion.simulate import NO_PUSH, TURNS, WEAKEST
 from proofs.motion.system import System
 from proofs.trusted.equations import launch_acceleration
@@ -71,7 +71,7 @@ class Motions:
             if not going.size:
                 return
             phases, kicks = self.phases[going], (self._epsilons * self.speeds)[going]
-            push = launch_acceleration(float_launch(system, phases))
+            push = launch_acceleration(system.launched(phases))
             still = (kicks < WEAKEST) & (push < NO_PUSH)
             horizons = np.minimum(math.tau * TURNS, self._until - self.times[going]) * ~still
             where = system.side, float(system.eta), float(system.nu), phases

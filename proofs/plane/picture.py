@@ -22,14 +22,11 @@ from proofs.report.layout import percent
 from proofs.search.curves import Curves, Seen, seen_curves
 from proofs.search.evidence import FAILED
 from proofs.trusted.atlas import NOT_YET, Region
-from proofs.trusted.certificate import SCHEMA
-from proofs.trusted.files import render
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.paper.beyond.grazing import GrazingCurve, nu_squared, ratio
 from proofs.trusted.paper.beyond.meetings import Meeting
 from proofs.trusted.subjects import Oscillators
 from proofs.trusted.verdicts import Verdict
-from proofs.trusted.verify import premises
 
 PERIODS = 5  # of the table, at most, between the impacts of an orbit
 GRAZING = "grazing"
@@ -110,8 +107,8 @@ def _closed(region: Region, q: Fraction) -> Iterator[tuple[str, int, Points]]:
 
 
 def _grazing(region: Region, epsilon: Fraction) -> Context | None:
-    """Prove and check the curves of grazing that are seen to pass through a region."""
-    made, left = Curves(epsilon, {}), _MOST_SEEN
+    """Prove the curves of grazing that are seen to pass through a region."""
+    made, left = Curves(epsilon), _MOST_SEEN
     for n in range(1, PERIODS + 1):
         for run in seen_curves(n, epsilon):
             part = _near(region, n, ratio(epsilon), run)
@@ -119,11 +116,7 @@ def _grazing(region: Region, epsilon: Fraction) -> Context | None:
             if part and left >= 0:
                 with suppress(*FAILED):
                     made.grazing(n, part)
-    if not made.traced:
-        return None
-    claims = [name for name, _ in made.traced + made.meetings]
-    head: dict[str, Any] = {"schema": SCHEMA, "parameters": None, "functions": {}}
-    return premises(render({**head, "steps": made.steps, "claims": claims}))
+    return made.derivation.context if made.traced else None
 
 
 def _near(region: Region, n: int, q: Fraction, run: list[Seen]) -> list[Seen]:

@@ -13,13 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from intervals import Undecided
-from proofs.motion.many import float_gap, next_impacts, separation_phases
+from proofs.motion.many import next_impacts, separation_phases
 from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
 from proofs.motion.witness import Flights
 from proofs.plane.steps import Steps, bracket, corners, times_for
 from proofs.trusted.certificate import texts
-from proofs.trusted.equations import launch, launch_acceleration
+from proofs.trusted.equations import clock, gap, launch, launch_acceleration
 from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.differential import BITS, sharp_values
@@ -108,8 +108,7 @@ def _sticks_at_centre(box: Place) -> bool:
     for _ in range(_MOST_IMPACTS):
         impact = next_impact(system, phase, _FARTHEST)
         if impact is None:
-            start = launch(system.side, float(system.eta), float(system.nu), phase)
-            return bool(launch_acceleration(start) <= 0)
+            return bool(launch_acceleration(system.launched(phase)) <= 0)
         phase = impact.phase
     return False
 
@@ -213,7 +212,7 @@ def _target(box: Place, low: float, high: float) -> tuple[float | None, float] |
     low, high = low - math.tau * turns, high - math.tau * turns
     if low > float(start.max()):
         return None, high
-    heights = float_gap(box.side, etas, nus, low, seen - low)
+    heights = gap(launch(box.side, etas, nus, low), clock(etas, seen - low))
     if low > 0 and (etas * (seen - low)).max() < _SHORT and (heights < 0).all():
         return low, high
     return None

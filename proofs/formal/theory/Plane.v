@@ -37,6 +37,7 @@ Definition measuring (s : hset) : stage :=
 (* The map from coordinates to coordinates. *)
 Definition local (i j : nat) : list stage := charting (set i) :: repeat F power ++ [measuring (set j)].
 
+(* A test of boxes on parts of [-1, 1]^2: first the unstable direction is cut, then the other one. *)
 Definition DEPTH := 6%nat.
 Section Tests.
 Variable bits : positive.
@@ -48,10 +49,11 @@ Notation image i j A B := (images bits (local i j) A B).
 
 (* The face x = way is taken beyond the side of the same sign, or of the other one. *)
 Definition beyond (i j : nat) (right same : bool) : bool :=
-  everywhere (fun A B => match image i j A B with
+  always (fun B => match image i j (if right then one else minus_one) B with
     | Some (V, _) => if eqb right same then at_least bits 1 V 1 else at_most bits 1 V (-1)
     | None => false
-    end) DEPTH (if right then one else minus_one) side.
+    end) DEPTH side.
+Definition everywhere (test : I.type -> I.type -> bool) : bool := always (fun A => always (test A) DEPTH side) DEPTH side.
 Definition clear (i j : nat) (A B : I.type) : bool :=
   match image i j A B with
   | Some (V, W) => above_zero (I.sub prec V one) || above_zero (I.sub prec minus_one V) || small bits 1 W 1
@@ -65,7 +67,7 @@ Definition steep (i j : nat) (same : bool) (A B : I.type) : bool :=
   end.
 Definition crossing (i j : nat) (same : bool) : bool :=
   if beyond i j false same then if beyond i j true same then
-  if everywhere (clear i j) DEPTH side side then everywhere (steep i j same) DEPTH side side
+  if everywhere (clear i j) then everywhere (steep i j same)
   else false else false else false.
 End Tests.
 
@@ -118,19 +120,13 @@ Proof.
   destruct (nth_in_or_default i sets (Hset 0 0 (Zpos unit) 0 0 (Zpos unit))) as [I | ->]; [auto|simpl; lia].
 Qed.
 
+Ltac by_field i z := pose proof (det_not_0 i); pose proof (unit_pos unit); destruct z as [x y];
+  unfold coordinates, chart, Stages.apply, measuring, charting, from_centre, quotient; cbn [fst snd value];
+  rewrite minus_IZR, !mult_IZR; f_equal; field; split; auto; lra.
 Lemma charted i q : coordinates i (chart i q) = q.
-Proof.
-  pose proof (det_not_0 i) as D. pose proof (unit_pos unit) as U. destruct q as [x y].
-  unfold coordinates, chart, Stages.apply, measuring, charting, from_centre, quotient. cbn [fst snd value].
-  rewrite minus_IZR, !mult_IZR. f_equal; field; split; auto; lra.
-Qed.
-
+Proof. by_field i q. Qed.
 Lemma measured i z : chart i (coordinates i z) = z.
-Proof.
-  pose proof (det_not_0 i) as D. pose proof (unit_pos unit) as U. destruct z as [x y].
-  unfold coordinates, chart, Stages.apply, measuring, charting, from_centre, quotient. cbn [fst snd value].
-  rewrite minus_IZR, !mult_IZR. f_equal; field; split; auto; lra.
-Qed.
+Proof. by_field i z. Qed.
 
 Lemma cells_are i z : cell i z <-> exists q, square i q /\ z = chart i q.
 Proof.
@@ -179,24 +175,31 @@ Lemma beyond_holds bits i j right same g : beyond bits i j right same = true -> 
   if eqb right same then 1 <= P i j (if right then 1 else -1, g) else P i j (if right then 1 else -1, g) <= -1.
 Proof.
   intros B G. unfold beyond in B.
-  refine (everywhere_holds (fun x y => if eqb right same then 1 <= P i j (x, y) else P i j (x, y) <= -1) _ DEPTH _ _ _
-    (if right then 1 else -1) g B _ _); [|destruct right; apply I.fromZ_correct|apply side_holds, G].
-  intros A B' x y T X Y. destruct (images bits (local i j) A B') as [[V W]|] eqn:E; [|discriminate].
+  set (x := if right then 1 else -1). set (A := if right then _ else _) in B.
+  assert (X : holds A x) by (destruct right; apply I.fromZ_correct).
+  refine (always_holds (fun y => if eqb right same then 1 <= P i j (x, y) else P i j (x, y) <= -1) _ DEPTH _ _ g B (side_holds _ _ G)).
+  intros B' y T Y. destruct (images bits (local i j) A B') as [[V W]|] eqn:E; [|discriminate].
   destruct (images_hold bits _ _ _ _ _ (x, y) E X Y) as [H _]. unfold P.
   destruct (eqb right same); [apply (at_least_holds bits 1) with (2 := T) in H|apply (at_most_holds bits 1) with (2 := T) in H];
     rewrite ratio_1 in H; exact H.
+Qed.
+
+Lemma everywhere_holds (P : R -> R -> Prop) bits test : (forall A B x y, test A B = true -> holds A x -> holds B y -> P x y) ->
+  everywhere bits test = true -> forall x y, -1 <= x <= 1 -> -1 <= y <= 1 -> P x y.
+Proof.
+  intros T E x y X Y. refine (always_holds (fun x => P x y) _ DEPTH _ _ x E (side_holds bits x X)).
+  intros A a Ta Ha. apply (always_holds (P a) _ DEPTH) with (2 := Ta); [eauto|apply side_holds, Y].
 Qed.
 
 Lemma crossing_holds bits i j same : crossing bits i j same = true -> relation i j same.
 Proof.
   unfold crossing. intros H. destruct (beyond bits i j false same) eqn:L; [|discriminate].
   destruct (beyond bits i j true same) eqn:Ri; [|discriminate].
-  destruct (everywhere (clear bits i j) _ _ _) eqn:Cl; [|discriminate]. split.
+  destruct (everywhere bits (clear bits i j)) eqn:Cl; [|discriminate]. split.
   - intros g G. pose proof (beyond_holds bits i j false same g L G) as B. unfold way. destruct same; cbn [eqb] in B; lra.
   - intros g G. pose proof (beyond_holds bits i j true same g Ri G) as B. unfold way. destruct same; cbn [eqb] in B; lra.
   - intros [x y] [X Y]. cbn [fst snd] in X, Y.
-    refine (everywhere_holds (fun x y => -1 <= P i j (x, y) <= 1 -> -1 <= Q i j (x, y) <= 1) _ DEPTH _ _ _ x y Cl
-      (side_holds bits x X) (side_holds bits y Y)).
+    refine (everywhere_holds (fun x y => -1 <= P i j (x, y) <= 1 -> -1 <= Q i j (x, y) <= 1) bits _ _ Cl x y X Y).
     clear. intros A B x y T X Y. unfold clear in T. destruct (images bits (local i j) A B) as [[V W]|] eqn:E; [|discriminate].
     destruct (images_hold bits _ _ _ _ _ (x, y) E X Y) as [HV HW]. fold (P i j (x, y)) in HV. fold (Q i j (x, y)) in HW.
     rewrite !orb_true_iff in T. destruct T as [[T|T]|T].
@@ -205,7 +208,7 @@ Proof.
     + apply (small_holds bits 1 _ _ _ HW) in T. rewrite ratio_1 in T. apply Rabs_le_between in T. lra.
   - intros a b t u v A B Da Db.
     refine (everywhere_holds (fun x y => forall (a b : R -> R) t, x = a t -> y = b t -> is_derive a t u -> is_derive b t v -> slope_there i j same a b t u v)
-      _ DEPTH _ _ _ (a t) (b t) H (side_holds bits _ A) (side_holds bits _ B) a b t eq_refl eq_refl Da Db).
+      bits _ _ H (a t) (b t) A B a b t eq_refl eq_refl Da Db).
     clear. intros A B x y T X Y a b t -> -> Da Db. unfold steep in T.
     destruct (slopes bits (local i j) A B _) as [J|] eqn:E; [|discriminate].
     destruct (slopes_hold bits _ _ _ _ _ a b t (Matrix 1 0 0 1) u v E X Y) as (m & (M1 & M2 & M3 & M4) & D1 & D2).

@@ -234,8 +234,10 @@ def rectangles():
     file.add("barred-word", {"rectangles": [beyond], "word": ["1", "1"], "from": "below"})
     box = [["3/5", "4/5"], ["-1/4", "1/4"]]
     file.add("differential", {"function": "F", "box": box, "bits": "64"})
-    box = [["41/50", "83/100"], ["0", "1/50"]]
-    file.add("stable-cycle", {"function": "G", "box": box, "period": "2", "rounds": "2"})
+    box = [["8237/10000", "4119/5000"], ["19/2000", "97/10000"]]
+    matrix = [["-1", "0"], ["0", "-1"]]
+    orbit = {"function": "G", "period": "2", "box": box, "matrix": matrix}
+    file.add("stable-cycle", {"orbit": orbit, "rounds": "2"})
     return file
 
 

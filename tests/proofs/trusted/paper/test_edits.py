@@ -65,9 +65,9 @@ def few_pieces():
 @once
 def grazing_curve():
     """The steps of a part of a curve of grazing, with the point where it meets the folds."""
-    made = Curves(Fraction(0), {})
+    made = Curves(Fraction(0))
     made.grazing(2, [x for x in seen_curves(2, Fraction(0))[-1] if 1.41 < x.eta < 1.45])
-    return made.steps
+    return made.derivation.steps
 
 
 @once
@@ -224,11 +224,10 @@ ACCEPTED = {  # what may be done to which field, in some places; all else is ref
     "single-windows@below": "low nudged; ends tighter looser widened",
     "grazing-curve": "box tighter looser widened nudged; slope nudged put_to_0; matrix tighter "
     "narrowed looser nudged moved put_beside put_to_0; times dropped swapped doubled_in_place "
-    "nudged moved put_beside put_to_1; amplitudes tighter looser widened nudged moved put_beside "
-    "put_to_0 put_to_1; epsilon put_to_0",
+    "nudged moved put_beside put_to_1; epsilon put_to_0; points dropped emptied swapped turned "
+    "doubled_in_place added",
     "grazing-meets": "box tighter looser widened nudged put_beside; matrix doubled_in_place nudged "
-    "moved put_beside put_to_0; amplitude tighter looser widened nudged moved put_beside put_to_0 "
-    "put_to_1",
+    "moved put_beside put_to_0",
     "stable-singles": "most moved; cuts moved put_alike put_to_1",
 }
 
