@@ -19,11 +19,15 @@ from proofs.report.dependencies import RESTS
 from proofs.report.figures.figure import Figure
 from proofs.report.findings import Finding, Findings, Statement, Step
 from proofs.report.formulas import lines, mathml
-from proofs.report.layout import Block, block, enclosure, marked, sentences
-from proofs.report.names import (
+from proofs.report.layout import (
     DEFINITIONS,
     MEANINGS,
     PAPER_TITLE,
+    Block,
+    block,
+    enclosure,
+    marked,
+    sentences,
     summary,
     tally,
     verdict_name,

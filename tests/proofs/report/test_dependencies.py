@@ -4,9 +4,9 @@ import re
 
 import pytest
 
+from proofs.commands.ledger import CLAIMS
 from proofs.report.dependencies import RESTS, falls_with, rests_on
 from proofs.report.graph import falling, svg
-from proofs.shell.ledger import CLAIMS
 from proofs.trusted.paper import find
 from proofs.trusted.verdicts import Verdict
 
