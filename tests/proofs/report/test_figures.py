@@ -14,10 +14,10 @@ import pytest
 from mpmath import mpf
 
 from intervals import Undecided
+from proofs.commands.ledger import CLAIMS
 from proofs.report.dependencies import RESTS, falls_with, rests_on
 from proofs.report.figures import resonance
 from proofs.report.graph import falling, svg
-from proofs.shell.ledger import CLAIMS
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.staying import StayingSet
 from proofs.trusted.paper import find

@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 
 from proofs.check import main as check
+from proofs.commands.ledger import CLAIMS
 from proofs.horseshoe import main
 from proofs.shell.files import writing
 from proofs.shell.groups import MANIFEST_NAME, entered
-from proofs.shell.ledger import CLAIMS
 from proofs.trusted.certificate import MANIFEST, Malformed
 from proofs.trusted.files import digest
 from proofs.trusted.kernel.meter import DEFAULT

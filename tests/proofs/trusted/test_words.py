@@ -13,9 +13,9 @@ from pathlib import Path
 import pytest
 
 from proofs.check import main
+from proofs.commands.ledger import CLAIMS
 from proofs.report.specification import specification, theorems
 from proofs.shell.groups import row_of
-from proofs.shell.ledger import CLAIMS
 from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.numbers import covered
 from proofs.trusted.parameters import PAPER, Place
