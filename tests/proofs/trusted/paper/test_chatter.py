@@ -115,11 +115,11 @@ def test_the_phase_of_rest_is_one_of_the_lemma(epsilon, kick):
     phases, last = (Fraction("4.63"), Fraction("4.64")), separation(PAPER)
     found = rest_phase(PAPER.place, phases, Fraction(kick), Fraction(epsilon), last)
     assert found is not None and phases[1] <= found < last
-    along = [mpf("4.63") + (number(found) - mpf("4.63")) * k / 100 for k in range(101)]
+    along = [mpf("4.63") + (as_mpf(found) - mpf("4.63")) * k / 100 for k in range(101)]
     push = [-reference.launch_acceleration(mpf("0.2121"), mpf("-0.2"), psi) for psi in along]
     ratio = mpf(epsilon) * mp.sqrt(max(push) / min(push))
     assert ratio < 1
-    assert mpf("4.64") + 2 * mpf(kick) / (min(push) * (1 - ratio)) <= number(found)
+    assert mpf("4.64") + 2 * mpf(kick) / (min(push) * (1 - ratio)) <= as_mpf(found)
 
 
 @pytest.mark.parametrize(
