@@ -25,11 +25,11 @@ BUDGETS = {
     "proofs/shell": 1_775,
     "proofs/benchmark": 2_005,
     "proofs/stress": 1_225,
-    "tests": 44_925,
+    "tests": 44_330,
     "words of the docs": 12_000,  # of those that are written by hand, the README with them
     "rules outside the kernel": 22,
     "loose modules": 9,  # of the package proofs
-    "tracked files": 920,
+    "tracked files": 860,
     "headline": 6_960,  # lines of the files that run to check reports/horseshoe.json
     "way of H2": 7_520,  # lines of the files that run to prove H2 and to check it
     "way of H2, files": 49,

@@ -56,7 +56,7 @@ def _orbit(
     for cycle in _seen(sampled, subject, asked, near)[:_MOST]:
         with suppress(Undecided):
             (step,) = prove_orbits(file, subject.function, [cycle])
-            if asked.proved_by(file.conclusion(step)):
+            if asked.proved_by(file.known[step]):
                 return step, [cycle.points[0]]
     raise Undecided("no orbit is found that is proved all over the box")
 

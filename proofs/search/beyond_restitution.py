@@ -114,7 +114,7 @@ def _chattering(prover: ReboundProver, epsilon: Fraction) -> tuple[str, Conclusi
         box = around_image(image)
         with suppress(*FAILED):
             state = landed(arc, (image.values[0], image.values[1]), BITS)
-            cell = pushing.settle((epsilon, epsilon), *state)
+            cell, _ = pushing.settle((epsilon, epsilon), *state)
             made = witness(separation, first, [cell], impacts)
             return prover.derive("superstable-motion", made)
     raise Undecided(f"{_MOST_IMPACTS} impacts after the separation the mass has not come to rest")

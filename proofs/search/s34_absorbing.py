@@ -110,8 +110,7 @@ class Partition:
             raise Undecided("no branch of f is proved between phases that stick at the next impact")
         pieces = _Pieces(self.system, branches, between, float(self.line[0]))
         mesh = self._mesh(pieces, between)
-        growth = mesh.grow(self.goal, self.most, self.impacts)
-        cuts = mesh.leaning(growth.absorbed)
+        cuts = mesh.grow(self.goal, self.most, self.impacts).cutting
         self.entries["cells"] = []
         for index, branch in enumerate(branches.branches):
             at = np.flatnonzero(cuts.branch == index)
@@ -126,10 +125,9 @@ class Partition:
         landed = [first, float(between[1]), last]
         sink = fixed[2] if self.never else None
         mesh = Mesh(first, pieces.parts, pieces.inverse, pieces.density, landed, sink)
-        none = np.full(len(fixed), -1)
-        mesh.add(Cutting(fixed, none, fixed, np.zeros(len(fixed), np.int64)), none)
-        orbits = pieces.orbits()
-        mesh.add(orbits, np.full(len(orbits.phases), -1))
+        none, no_turns = np.full(len(fixed), -1), np.zeros(len(fixed), np.int64)
+        mesh.add(Cutting(fixed, none, fixed, no_turns))
+        mesh.add(pieces.orbits())
         mesh.seed()
         return mesh
 

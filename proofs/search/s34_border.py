@@ -30,14 +30,11 @@ def witness(
         "separation": separation,
         "box": [texts(side) for side in box],
         "impacts": list(impacts),
-        "cells": [_written(cell) for cell in cells],
+        "cells": [
+            {"epsilon": texts(each.epsilons), "bounces": [texts(time) for time in each.bounces]}
+            for each in cells
+        ],
     }
-
-
-def _written(cell: Cell) -> dict[str, Any]:
-    ratio, rest = map(str, cell.ending) if cell.ending else (None, None)
-    bounces = [texts(bounce) for bounce in cell.bounces]
-    return {"epsilon": texts(cell.epsilons), "bounces": bounces, "ratio": ratio, "rest": rest}
 
 
 def border(prover: Prover, motion: tuple[str, SuperstableMotion]) -> Proof:
@@ -56,11 +53,11 @@ def border(prover: Prover, motion: tuple[str, SuperstableMotion]) -> Proof:
         middle = (low + high) // 2
         try:
             epsilon = Fraction(middle, _UNITS)
-            end = pushing.settle((epsilon, epsilon), *states, arc.phase)
+            end, rest = pushing.settle((epsilon, epsilon), *states, arc.phase)
         except FAILED:
             break
-        ends[end.ending is None] = end
-        low, high = (low, middle) if end.ending is None else (middle, high)
+        ends[rest is None] = end
+        low, high = (low, middle) if rest is None else (middle, high)
     proof: Proof = []
     for _, end in sorted(ends.items()):
         with suppress(*FAILED):

@@ -106,7 +106,7 @@ def _cells(pushing: Pushing, arc: Separation, box: Box, enough: Fraction) -> lis
 
         def settled(epsilon: Range, least: Fraction = step / 2**_HALVINGS) -> Cell | None:
             try:
-                return pushing.settle(epsilon, *states)
+                return pushing.settle(epsilon, *states)[0]
             except Undecided:
                 if epsilon[1] - epsilon[0] <= least:
                     raise

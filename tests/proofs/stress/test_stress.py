@@ -21,6 +21,7 @@ from proofs.stress.families import FAMILIES
 from proofs.stress.judge import Outcome, judge, text
 from proofs.stress.truth import BITS, Launched, first_impact, graze
 from tests.proofs.trusted.paper import reference
+from tests.proofs.trusted.paper.reference import as_mpf
 
 pytest.importorskip("flint")
 KERNEL = arithmetic(FLINT, BITS)
@@ -34,12 +35,8 @@ def by():
     return KERNEL
 
 
-def number(value):
-    return mpf(value.numerator) / value.denominator
-
-
 def close(bounds, value, slack):
-    return number(bounds[0]) - slack <= value <= number(bounds[1]) + slack
+    return as_mpf(bounds[0]) - slack <= value <= as_mpf(bounds[1]) + slack
 
 
 def truths(kernel, function, low, high):
@@ -57,11 +54,11 @@ def point(phi, **options):
     "given", [("0.2121", "-0.2", "1.11"), ("0.2121", "-0.2", "6.2"), ("1.7", "2.5", "4.5")]
 )
 def test_the_truth_agrees_with_a_scan_of_equation_10(by, given):
-    known = [number(Fraction(x)) for x in given]
+    known = [as_mpf(Fraction(x)) for x in given]
     flight, phase = reference.first_impact(*known)
     found = first_impact(by, Launched(*map(Fraction, given)), FAR).known
     assert close(found["flight"], flight, mpf(10) ** -40)
-    assert mp.fabs(mp.sin((number(found["phase"][0]) - phase) / 2)) < mpf(10) ** -40
+    assert mp.fabs(mp.sin((as_mpf(found["phase"][0]) - phase) / 2)) < mpf(10) ** -40
     assert close(found["slope"], reference.slope(*known, flight), mpf(10) ** -15)
     assert all(high - low <= abs(low) / Fraction(10) ** 90 for low, high in found.values())
 
@@ -71,15 +68,15 @@ def test_the_truth_after_sticking(by):
     flight, _ = reference.first_impact(mpf("0.2121"), mpf("-0.2"), leave)
     found = first_impact(by, Launched(ETA, NU, Fraction(5)), FAR).known
     assert close(found["flight"], flight, mpf(10) ** -30)
-    assert mp.fabs(mp.sin((number(found["dwell"][0]) - (leave - 5)) / 2)) < mpf(10) ** -45
+    assert mp.fabs(mp.sin((as_mpf(found["dwell"][0]) - (leave - 5)) / 2)) < mpf(10) ** -45
     assert found["slope"] == (0, 0)
 
 
 def test_the_truth_with_restitution_solves_14_and_15(by):
     of = Launched(ETA, NU, Fraction("1.11"), Fraction("0.1"), Fraction("-0.5"))
     found = first_impact(by, of, FAR).known
-    state = [number(x) for x in (of.eta, of.nu, of.epsilon, of.phi, of.gamma)]
-    flight = number(found["flight"][0])
+    state = [as_mpf(x) for x in (of.eta, of.nu, of.epsilon, of.phi, of.gamma)]
+    flight = as_mpf(found["flight"][0])
     assert mp.fabs(reference.left_side_14(*state, flight)) < mpf(10) ** -45
     assert close(found["velocity"], reference.right_side_15(*state, flight), mpf(10) ** -45)
     step = Fraction(1, 10**12)

@@ -238,4 +238,6 @@ def test_a_theorem_that_is_named_stands_below_the_rule():
     told = theorems("staying-set")
     assert len(told) == len(set(told)) and told[1].startswith("`staying_set`: Theorem. ")
     bounces = theorems("superstable-motion")  # names a theorem, whose hypotheses name others
-    assert {"`superstable_motion`", "`bounce`", "`settle`"} <= {x.split(":")[0] for x in bounces}
+    assert {"`superstable_motion`", "`bounce`", "`rest_phase`"} <= {
+        x.split(":")[0] for x in bounces
+    }

@@ -567,8 +567,7 @@ def chatter():
     (found,) = (x for x in known.values() if isinstance(x, SuperstableMotion))
     (cell,) = witness["cells"]
     times = [tuple(map(F, time)) for time in cell["bounces"]]
-    ending = F(cell["ratio"]), F(cell["rest"])
-    ends = Cell(tuple(map(F, cell["epsilon"])), times, ending)
+    ends = Cell(tuple(map(F, cell["epsilon"])), times)
     return known[witness["separation"]], found.boxes[0], impacts, ends, of
 
 
@@ -578,11 +577,6 @@ def test_a_motion_that_chatters_is_what_the_oracle_sees():
     assert len(found.boxes) == 7 and "superstable" in found.sentence
     assert "Its next impacts are in" in found.sentence and "period of 2 pi" not in found.sentence
     assert not oracle(found, random.Random(1), of)
-
-
-def ending(cell, **numbers):
-    known = dict(zip(("ratio", "rest"), cell.ending, strict=True)) | numbers
-    return cell._replace(ending=(known["ratio"], known["rest"]))
 
 
 def moved(bounds, by):
@@ -625,12 +619,8 @@ def imaged(impact, phase=None, velocity=None):
             "sticks",
         ),
         (lambda a, b, x, c: (a, b, x[::-1], c), "next"),
-        (lambda a, b, x, c: (a, b, x, ending(c, rest=a.phase[0])), None),
-        (lambda a, b, x, c: (a, b, x, ending(c, rest=c.ending[1] - 1)), "rest"),
         (lambda a, b, x, c: (a, b, x, c._replace(bounces=c.bounces[:-1])), None),
         (lambda a, b, x, c: (a, b, x, c._replace(bounces=c.bounces[1:])), None),
-        (lambda a, b, x, c: (a, b, x, ending(c, ratio=F(1, 100))), "shrink"),
-        (lambda a, b, x, c: (a, b, x, ending(c, ratio=F(1))), "ratio"),
         (lambda a, b, x, c: (a, b, x, c._replace(epsilons=(F(0), F("0.0948")))), "different"),
         (lambda a, b, x, c: (replace(a, speed=moved(a.speed, "1e-5")), b, x, c), "first box"),
         (lambda a, b, x, c: (replace(a, arrival=moved(a.arrival, "1e-5")), b, x, c), "first box"),
@@ -647,7 +637,6 @@ def imaged(impact, phase=None, velocity=None):
         (lambda a, b, x, c: (a, b, [plastic(x[0])], c._replace(epsilons=(F(0),) * 2)), "different"),
         (lambda a, b, x, c: (a, b, rebounding(x, "0.095", "0.1"), c), "different"),
         (lambda a, b, x, c: (a, [moved(b[0], "1e-7"), b[1]], x, c), "next"),
-        (lambda a, b, x, c: (a, b, x, c._replace(ending=None)), "after bounces"),
     ],
 )
 def test_a_motion_that_chatters_needs_all(change, reason):

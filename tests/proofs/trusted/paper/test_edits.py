@@ -215,7 +215,7 @@ ACCEPTED = {  # what may be done to which field, in some places; all else is ref
     "put_to_1; rate nudged; orbits dropped swapped turned; time tighter looser widened nudged "
     "moved put_beside; radius nudged moved; images dropped swapped doubled_in_place added turned",
     "superstable-motion": "box tighter; cells added; bounces tighter looser widened nudged "
-    "put_beside; ratio nudged; rest nudged",
+    "put_beside",
     "superstable-motion@passes": "box tighter; bounces tighter looser widened",
     "single-solution": "phase tighter looser widened; n put_to_1; latest other_type nudged moved",
     "single-windows": "above tighter looser widened; below tighter looser widened; early "
