@@ -19,7 +19,6 @@ from intervals.entry import ends, exact_rows, float_rows, scalar_rows
 from intervals.errors import DomainError
 from intervals.exact import Exact, fraction, whole
 from intervals.functions import DOMAINS, Domain, Elementary
-from intervals.reductions import Operation, matrix_product, pairwise
 from intervals.relations import Relations, overlap_state
 from intervals.rounding import (
     MAX,
@@ -42,6 +41,7 @@ from intervals.rows import (
     total,
 )
 from intervals.shapes import Shaped
+from intervals.tight import Operation, matrix_product, pairwise
 
 if TYPE_CHECKING:
     from intervals.interval import Interval

@@ -4,8 +4,7 @@ Endpoints are dyadic rationals held as libmp numbers; + - * / sqrt are libmp's w
 rounding, sin cos exp log are this package's own with proved remainders, rounded to the next
 number. So each of these, sqr and x**n (n >= 0) return the tightest enclosure of the range at their
 precision, and X within Y implies op(X) within op(Y). The precision in bits travels with the
-number: a result has the larger precision of its operands. Where python-flint is installed it does
-the same to the bit: see `_engine`.
+number: a result has the larger precision of its operands.
 """
 
 from __future__ import annotations
@@ -33,7 +32,7 @@ from mpmath.libmp import (
     mpf_sub,
 )
 
-from intervals import _engine, display, ranges
+from intervals import display, ranges
 from intervals.elementary.constants import pi_fixed
 from intervals.elementary.tightest import DOWN, UP, Bounds
 from intervals.elementary.tightest import Raw as _Raw
@@ -58,9 +57,7 @@ class Interval(Relations[bool], Elementary):
     Every operation returns a superset of {op(x, y): x in X, y in Y} (the inclusion principle).
     """
 
-    __slots__ = ("_hi", "_high", "_lo", "_low", "precision")
-    _low: Any  # _low, _high: see `_engine_flint`
-    _high: Any
+    __slots__ = ("_hi", "_lo", "precision")
     _lo: _Raw
     _hi: _Raw
     precision: int
@@ -519,6 +516,3 @@ def _outward(lo: _Raw, hi: _Raw, precision: int) -> Interval:
 def _restore(low: tuple[int, int], high: tuple[int, int], precision: int) -> Interval:
     """Return the interval with these endpoints m 2^e (for pickle and copy)."""
     return _make(from_man_exp(*low), from_man_exp(*high), precision)
-
-
-_engine.arrange(Interval)

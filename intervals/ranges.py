@@ -9,8 +9,7 @@ from __future__ import annotations
 from mpmath.libmp import fone, from_int, fzero, mpf_cmp, mpf_lt, mpf_neg, mpf_sub
 
 from intervals.elementary import tightest
-from intervals.elementary.steps import STEPS
-from intervals.elementary.tightest import UP, Bounds, Raw
+from intervals.elementary.tightest import STEPS, UP, Bounds, Raw
 from intervals.errors import DomainError
 from intervals.functions import DOMAINS, TABLE
 from intervals.raw import extremes, hull

@@ -29,6 +29,7 @@ from intervals.branch import (
     meets,
     one_box,
     select,
+    shaved,
     split,
 )
 from intervals.contractor import contracted
@@ -39,7 +40,6 @@ from intervals.interval import Interval
 from intervals.jet import Jet
 from intervals.newton import Roots
 from intervals.operators import SystemResult, contract, krawczyk
-from intervals.shaving import shaved
 from intervals.systems import Function, components
 
 _NEAR = 2.0**-18  # of a side of the given box

@@ -280,7 +280,7 @@ class Map:
         theorem = theorem_of(file, prove_orbits(file, self.function, cycles))
         if not is_attracting:
             return theorem
-        kept = [each for each in file.steps if file.conclusion(each).stability == "attracting"]
+        kept = [each for each in file.steps if file.known[each].stability == "attracting"]
         if not kept:
             raise Undecided(f"not that it is attracting: {theorem.conclusion.brief}")
         return theorem_of(file, kept)
@@ -366,4 +366,4 @@ class Map:
 
 def theorem_of(file: Any, steps: Sequence[str]) -> Theorem:
     """Return what some steps conclude, with their certificate."""
-    return Theorem(tuple(map(file.conclusion, steps)), file.certificate(*steps))
+    return Theorem(tuple(file.known[step] for step in steps), file.certificate(*steps))

@@ -19,20 +19,20 @@ from proofs.trusted.rules import RULES
 ROOT = Path(__file__).parents[1]
 GENERATED = ["docs/api.md", "docs/systems.md"]
 BUDGETS = {
-    "proofs": 55_580,
-    "proofs/trusted": 23_031,
-    "proofs/search, proofs/motion": 7_990,
-    "proofs/shell": 1_775,
-    "proofs/benchmark": 2_005,
-    "proofs/stress": 1_225,
-    "tests": 44_925,
+    "proofs": 54_640,
+    "proofs/trusted": 22_905,
+    "proofs/search, proofs/motion": 7_645,
+    "proofs/shell": 1_465,
+    "proofs/benchmark": 1_955,
+    "proofs/stress": 1_205,
+    "tests": 44_345,
     "words of the docs": 12_000,  # of those that are written by hand, the README with them
-    "rules outside the kernel": 22,
+    "rules outside the kernel": 17,
     "loose modules": 9,  # of the package proofs
-    "tracked files": 920,
-    "headline": 6_960,  # lines of the files that run to check reports/horseshoe.json
-    "way of H2": 7_520,  # lines of the files that run to prove H2 and to check it
-    "way of H2, files": 49,
+    "tracked files": 857,
+    "headline": 6_985,  # lines of the files that run to check reports/horseshoe.json
+    "way of H2": 7_420,  # lines of the files that run to prove H2 and to check it
+    "way of H2, files": 46,
 }
 
 

@@ -13,8 +13,8 @@ from pathlib import Path
 
 import pytest
 
+from proofs.commands.ledger import CLAIMS
 from proofs.shell.groups import row_of
-from proofs.shell.ledger import CLAIMS
 from proofs.shell.screen import Decided, in_a_line
 from proofs.trusted.kernel.differential import Avoids
 from proofs.trusted.kernel.laps import SlopeRange

@@ -50,7 +50,7 @@ exit status: 0 every target was reached, 1 one was missed or could not be measur
 
 def measure(options: Namespace, tell: Tell) -> Iterator[Section]:
     """Measure the subject."""
-    from proofs.benchmark import arrays, horseshoe, operations, precision
+    from proofs.benchmark import horseshoe, operations, precision
 
     subject, mode = options.subject, options.mode
     if subject in ("all", "horseshoe", "limit"):
@@ -58,7 +58,7 @@ def measure(options: Namespace, tell: Tell) -> Iterator[Section]:
     if subject in ("all", "operations"):
         yield operations.measure(mode, tell)
     if subject in ("all", "arrays"):
-        yield arrays.measure(mode, tell)
+        yield operations.measure_arrays(mode, tell)
     if subject in ("all", "ledger"):
         yield horseshoe.ledger(mode, tell)
     if subject == "horseshoe":

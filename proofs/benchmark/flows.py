@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 from proofs.methods.derivation import Derivation
 from proofs.methods.tubes import to_time
-from proofs.report.markup import markdown_table
+from proofs.report.page import markdown_table
 from proofs.shell.files import write_files
 from proofs.shell.screen import say
 from proofs.trusted.kernel.arithmetic import Unproved

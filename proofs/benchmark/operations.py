@@ -1,17 +1,23 @@
-"""Single operations of Interval and short IntervalArrays beside python-flint and mpmath.iv."""
+"""Single operations and arrays, beside python-flint, mpmath.iv and other packages of arrays.
+
+The least bounds are those of `Interval` at 53 bits. A package that is absent has no row.
+"""
 
 from __future__ import annotations
 
+import importlib
+import operator
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack
+from itertools import chain
 from random import Random
 from typing import Any, NamedTuple
 
-from intervals import Interval, IntervalArray
-from intervals._engine import by_mpmath, fastest, use
+import numpy as np
+
+from intervals import Interval, IntervalArray, TightArray
 from proofs.benchmark.measure import Row, Tell, in_turn, ratio_row
 from proofs.benchmark.page import Section
-from proofs.benchmark.peers import FLINT, IV, OURS, arithmetic, libraries
+from proofs.benchmark.peers import FLINT, IV, OURS, arithmetic, installed, libraries
 
 ARRAY = "IntervalArray"
 _ROUNDS = {"smallest": 1, "quick": 9, "full": 31}
@@ -58,74 +64,142 @@ class _Pair(NamedTuple):
     bits: int
     most: float | None = None
     length: int = _LENGTH
-    at_ends: bool = False  # they do it at both ends, each a point
 
     def __str__(self) -> str:
         size = f", length {self.length}" if self.ours == ARRAY else f", {self.bits} bits"
-        theirs = f"{self.theirs} at both ends" if self.at_ends else self.theirs
-        without = " without python-flint" if self.theirs == IV else ""
-        return f"{self.name}{size}: {self.ours}{without} / {theirs}"
+        return f"{self.name}{size}: {self.ours} / {self.theirs}"
 
 
 def _pairs() -> Iterator[_Pair]:
-    # first without python-flint, which changes the slots of Interval when it comes to be used
     for name, bits in (("log", 333), ("hypot", 333), ("sin", 3333), ("hypot", 3333)):
         yield _Pair(OURS, IV, name, bits, 1.0, length=30)
     if FLINT in libraries():
-        for name, share in {"+": 0.15, "sin": 0.06, "exp": 0.06, "log": 0.06}.items():
-            yield _Pair(OURS, FLINT, name, 333, 1 / share)
-        for name in ("exp", "log"):  # increasing: the ends' images are the image's ends
-            yield _Pair(OURS, FLINT, name, 333, 1 / 0.4, at_ends=True)
         for name in ("+", "*", "sin", "exp"):
             for length in (1, 10, 100):
                 yield _Pair(ARRAY, FLINT, name, 53, length=length)
 
 
 def measure(mode: str, tell: Tell) -> Section:
-    """Measure all pairs, python-flint computing for `Interval` but beside mpmath.iv."""
+    """Measure all pairs."""
     tell("single operations")
     rows = [_row(pair, _ROUNDS[mode]) for pair in _pairs()]
     about = (
         "The same operation on the same operands, intervals 2^-6 / 3 wide with ends of full "
-        "precision: how many times as long ours takes as one ball, or as the balls of both ends, "
-        "or as mpmath.iv. Ours are two ends, each rounded to the precision, and one Python object."
+        "precision: how many times as long ours takes as mpmath.iv, or as one ball of python-flint."
     )
     return Section("Single operations", about, rows)
 
 
 def _row(pair: _Pair, rounds: int) -> Row:
-    with ExitStack() as stack:
-        stack.enter_context(by_mpmath(Interval))
-        if pair.theirs == FLINT:
-            import flint
-
-            stack.enter_context(flint.ctx.workprec(pair.bits))
-            use(Interval, fastest(Interval))
-        ours, theirs = (_task(pair, library) for library in pair[:2])
-        above, below = in_turn([ours, theirs], rounds)
-        return ratio_row(str(pair), above, below, pair.most)
+    ours, theirs = (_task(pair, library) for library in pair[:2])
+    above, below = in_turn([ours, theirs], rounds)
+    return ratio_row(str(pair), above, below, pair.most)
 
 
-def _task(pair: _Pair, library: str) -> Callable[[], list[Any]]:
-    """Return what does the operation on all operands, often where they are few; what it returns is
-    what it found, at both ends one after the other.
-    """
+def _task(pair: _Pair, library: str) -> Callable[[], Any]:
+    """Return what does the operation on all operands, often where they are few."""
     names = operands(library, pair.bits, pair.length)
-    lists = {name: names[name] for name in "xy"}
-    third = {name: x / 3 if library == ARRAY else [e / 3 for e in x] for name, x in lists.items()}
-    given = [third]
-    if library == FLINT and pair.at_ends:
-        given = [
-            {name: [getattr(ball, end)() for ball in x] for name, x in third.items()}
-            for end in ("lower", "upper")
-        ]
+    scope = names | {
+        name: x / 3 if library == ARRAY else [each / 3 for each in x]
+        for name, x in names.items()
+        if name in ("x", "y")
+    }
     code = compile(statement(pair.name, library), pair.name, "eval")
-    scopes = [names | some for some in given]
     calls = _CALLS if pair.ours == ARRAY else 1
 
-    def run() -> list[Any]:
+    def run() -> Any:
         for _ in range(calls - 1):
-            eval(code, scopes[0])
-        return [eval(code, scope) for scope in scopes]
+            eval(code, scope)
+        return eval(code, scope)
 
     return run
+
+
+_LENGTHS = {"smallest": 300, "quick": 200_000, "full": 200_000}
+_ARRAY_ROUNDS = {"smallest": 1, "quick": 5, "full": 15}
+_SAMPLE = 300
+_SIGNS = {"+": operator.add, "*": operator.mul, "/": operator.truediv}
+NAMES = (*_SIGNS, "sqrt", "exp", "log", "sin", "tanh")
+
+
+class Package(NamedTuple):
+    """Arrays of a package: made from two ends, with functions by name, and their ends."""
+
+    make: Callable[[Any, Any], Any]
+    function: Callable[[str], Callable[[Any], Any]]
+    ends: Callable[[Any], Any] = lambda x: (x.inf, x.sup)
+
+
+def packages() -> dict[str, Package]:
+    """Return those that are here, ours first."""
+    ours = {
+        kind.__name__: Package(kind.from_floats, _method) for kind in (IntervalArray, TightArray)
+    }
+    return ours | dict(_others())
+
+
+def _others() -> Iterator[tuple[str, Package]]:
+    if installed("ival"):
+        crival = importlib.import_module("ival")
+        yield "crival", Package(crival.Interval, lambda name: getattr(crival, name))
+    if installed("pyintval"):  # one by one
+        single = importlib.import_module("pyintval")
+        yield (
+            "pyintval",
+            Package(
+                np.frompyfunc(single.Interval, 2, 1),
+                lambda name: np.frompyfunc(getattr(single, name), 1, 1),
+                lambda x: np.array([(y.lo, y.hi) for y in x], dtype=float).T,
+            ),
+        )
+
+
+def _method(name: str) -> Callable[[Any], Any]:
+    return lambda x: getattr(x, name)()
+
+
+def computed(package: Package, name: str, lower: Any, upper: Any) -> Callable[[], Any]:
+    """Return what does an operation on the intervals, with themselves if it has two operands."""
+    x = package.make(lower, upper)
+    if sign := _SIGNS.get(name):
+        return lambda: sign(x, x)
+    function = package.function(name)
+    return lambda: function(x)
+
+
+def excess(package: Package, name: str, lower: Any, upper: Any) -> Any:
+    """Return how many ulps each result has beyond the least bounds, on its worse side."""
+    low, high = package.ends(computed(package, name, lower, upper)())
+    ends = (map(Interval.from_float, x.tolist()) for x in (lower, upper))
+    single = (a.hull(b) for a, b in zip(*ends, strict=True))
+    least = [_SIGNS[name](x, x) if name in _SIGNS else getattr(x, name)() for x in single]
+    best = np.array([[float(x.inf), float(x.sup)] for x in least]).T
+    return np.maximum(*np.abs(np.array((low, high)) - best) / np.spacing(np.abs(best)))
+
+
+def measure_arrays(mode: str, tell: Tell) -> Section:
+    """Measure all, each beside the arrays of today's default."""
+    tell("arrays")
+    rng, count = np.random.default_rng(1), _LENGTHS[mode]
+    lower = rng.uniform(0.05, 3, count)
+    upper = lower * (1 + rng.random(count) * 1e-3)
+    rows = chain.from_iterable(
+        _array_rows(name, lower, upper, _ARRAY_ROUNDS[mode]) for name in NAMES
+    )
+    about = (
+        f"{count} intervals, one call: how many times as long as an IntervalArray takes, and by "
+        "how many ulps bounds are beyond the least there are, at most and on average. Where a "
+        "package has 0 and an IntervalArray has not, the package is tighter."
+    )
+    return Section("Arrays beside other packages", about, list(rows))
+
+
+def _array_rows(name: str, lower: Any, upper: Any, rounds: int) -> Iterator[Row]:
+    every = packages()
+    times = in_turn([computed(p, name, lower, upper) for p in every.values()], rounds)
+    for (package, p), samples in zip(every.items(), times, strict=True):
+        row = ratio_row(f"{name}: {package} / IntervalArray", samples, times[0])
+        beyond = excess(p, name, lower[:_SAMPLE], upper[:_SAMPLE])
+        row.measured += f"; {beyond.max():.0f} ulps, {beyond.mean():.2f} on average"
+        row.samples["ulps"] = beyond.tolist()
+        yield row

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
-from proofs.benchmark.diagrams import Diagram, svg
+from proofs.benchmark.curves import Diagram, svg
 from proofs.benchmark.measure import Row, version_of
-from proofs.report.markup import markdown_table
+from proofs.report.page import markdown_table
 from proofs.shell.files import writing
 
 SCHEMA = "impact-proofs.benchmark/1"

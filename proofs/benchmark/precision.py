@@ -13,8 +13,7 @@ from typing import NamedTuple
 
 from proofs.benchmark import tasks
 from proofs.benchmark.codac_server import Bounds, codac
-from proofs.benchmark.curves import Budget, Curve, beside, sweep
-from proofs.benchmark.diagrams import Diagram
+from proofs.benchmark.curves import Budget, Curve, Diagram, beside, sweep
 from proofs.benchmark.measure import Row, Tell, version_of
 from proofs.benchmark.page import Section
 from proofs.benchmark.peers import CODAC, FLINT, IV, installed, libraries

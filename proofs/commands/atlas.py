@@ -13,7 +13,6 @@ if __name__ == "__main__":
 
     launch("proofs.commands.atlas")
 
-import json
 import sys
 from argparse import ArgumentTypeError, Namespace
 from fractions import Fraction
@@ -33,6 +32,7 @@ from proofs.shell.files import check_folder, check_targets, write_target, writin
 from proofs.shell.screen import say
 from proofs.trusted.atlas import DEEPEST, Region, proved
 from proofs.trusted.certificate import Malformed, parse, texts
+from proofs.trusted.files import render
 from proofs.trusted.kernel.meter import DEFAULT
 from proofs.trusted.numbers import Range
 from proofs.trusted.questions import OF_MAPS, QUESTIONS
@@ -186,7 +186,7 @@ def _make(parser: Parser, options: Namespace, store: Store) -> int:
     made = summary.summary(store)
     with writing(options.out) as put:
         put(LINES, store.lines())
-        put("atlas.json", json.dumps(made, indent=1) + "\n")
+        put("atlas.json", render(made))
         put(SAMPLE, store.sample())
     shown = LINES
     if packages := missing():
@@ -195,7 +195,7 @@ def _make(parser: Parser, options: Namespace, store: Store) -> int:
         with progress() as tell:
             tell("pictures")
             shown = _draw(options.out, store, made)
-    write_target(parser, options.json, lambda: json.dumps(made, indent=1) + "\n")
+    write_target(parser, options.json, lambda: render(made))
     if heard(options):
         for line in summary.lines(made, store.region):
             say(line)
@@ -245,7 +245,7 @@ def _show_cell(parser: Parser, options: Namespace, store: Store) -> int:
         "conclusion": says,
         "certificate": None if path is None else str(path),
     }
-    write_target(parser, options.json, lambda: json.dumps(made, indent=1) + "\n")
+    write_target(parser, options.json, lambda: render(made))
     if heard(options):
         say(f"{verdict}: {says}")
         if path is not None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from argparse import Namespace
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from intervals import Undecided
@@ -14,7 +14,7 @@ from proofs.trusted.numbers import TURN, show
 from proofs.trusted.parameters import Parameters
 
 if TYPE_CHECKING:
-    from proofs.search.portrait import Fate, Stretch
+    from proofs.search.portrait import Stretch
 
 _NARROW = 0.005  # of stretches that are counted only
 _SMALL = 50  # a denominator of eta after which touches are common
@@ -29,27 +29,27 @@ def dossier(of: Parameters, options: Namespace) -> str:
     if of.eta > FASTEST:
         return "\n".join([*lines, f"Nothing: for eta > {FASTEST} flights are not followed."])
     try:
-        lines += _circle(of, budget) if of.epsilon is None else _rebounding(of, budget)
+        lines += _circle(of, budget) if of.epsilon is None else ()
+        lines += _fates(of, budget)
     except Undecided as failure:
         lines.append(f"Not all that was to be looked at: {failure}.")
     return "\n".join([*lines, *_special(of)])
 
 
-def _rebounding(of: Parameters, budget: Budget) -> Iterator[str]:
-    """Say what motions with restitution come to."""
-    from proofs.search.portrait import rebounding_fates
+def _fates(of: Parameters, budget: Budget) -> Iterator[str]:
+    """Say what motions come to."""
+    from proofs.search.portrait import fates
 
     system, epsilon = System(of.eta, of.nu), float(of.epsilon or 0)
     yield from (f"Of {budget.starts} motions from random impacts:", "")
-    yield from _listed(
-        rebounding_fates(system, epsilon, budget.starts, budget.impacts, budget.check)
-    )
+    for fate in fates(system, epsilon, budget.starts, budget.impacts, budget.check):
+        yield f"- {100 * fate.share:.0f} percent: {fate.name}, after up to {fate.impacts} impacts"
 
 
 def _circle(of: Parameters, budget: Budget) -> Iterator[str]:
-    """Cut the circle into stretches, and say where orbits of the plastic map go."""
-    from proofs.report.markup import markdown_table
-    from proofs.search.portrait import HEAD, fates, rows, stretches
+    """Cut the circle into stretches of the plastic map."""
+    from proofs.report.page import markdown_table
+    from proofs.search.portrait import HEAD, rows, stretches
 
     system = System(of.eta, of.nu)
     seen = stretches(system, budget.grid, budget.farthest, budget.check)
@@ -59,15 +59,6 @@ def _circle(of: Parameters, budget: Budget) -> Iterator[str]:
         f"{budget.farthest:g}:"
     )
     yield from ("", *markdown_table([HEAD, *shown]), "", *_others(seen))
-    yield f"Of {budget.starts} orbits from phases all around, in up to {budget.impacts} impacts:"
-    yield ""
-    yield from _listed(fates(system, budget.starts, budget.impacts, budget.farthest, budget.check))
-
-
-def _listed(ends: Iterable[Fate]) -> Iterator[str]:
-    """Say what shares of the orbits come to."""
-    for fate in ends:
-        yield f"- {100 * fate.share:.0f} percent: {fate.name}, after up to {fate.impacts} impacts"
 
 
 def _others(seen: list[Stretch]) -> Iterator[str]:

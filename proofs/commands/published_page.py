@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from proofs.map import Map
 from proofs.report.figures.portrait import portrait
-from proofs.report.markup import markdown_table
+from proofs.report.page import markdown_table
 from proofs.theorem import Theorem
 from proofs.trusted.kernel.meter import DEFAULT
 from proofs.trusted.verify import check

@@ -33,6 +33,7 @@ from proofs.shell.files import write_files
 from proofs.shell.screen import say
 from proofs.system import System
 from proofs.theorem import Theorem
+from proofs.trusted.files import render
 from proofs.trusted.numbers import show
 from proofs.trusted.verdicts import Verdict
 
@@ -163,7 +164,7 @@ def main(arguments: list[str] | None = None) -> int:
     if options.out:
         _write(options, system, answers)
     if options.json:
-        text = json.dumps(_machine(system, answers), indent=1, ensure_ascii=False) + "\n"
+        text = render(_machine(system, answers))
         if options.json == "-":
             print(text, end="")
         else:

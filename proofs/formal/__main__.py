@@ -24,13 +24,13 @@ from proofs.formal import cases, coqc, graphs, rebounds
 from proofs.formal.hints import NoHint
 from proofs.formal.plan import CLAIMS, plan
 from proofs.formal.written import Case, NoTheorem, Theorem, ended
-from proofs.report.accepted import RECORD, digest, recorded
+from proofs.report.accepted import RECORD, recorded
 from proofs.shell.answers import Answer, machine_text
 from proofs.shell.cli import Parser, progress, share, whole
 from proofs.shell.files import check_folder, check_targets, refusing, write_target, writing
 from proofs.shell.screen import say
 from proofs.trusted.certificate import Malformed
-from proofs.trusted.files import read
+from proofs.trusted.files import digest, read
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.meter import Exhausted
 from proofs.trusted.verify import Rejected, check
@@ -40,9 +40,8 @@ _SECONDS = 900
 _LIMIT = f"that coqc has for the case (default {_SECONDS})"
 _COMPILED = (".v", ".vo")
 EPILOG = """\
-With Coq's own integers, the default, the axioms are the four of the standard library's real
-numbers; with --floats also the specifications of machine integers and floats. The theory is
-compiled once and kept in the user's cache, by a digest of its text and of the installed Coq.
+The axioms are the four of the standard library's real numbers. The theory is compiled once and
+kept in the user's cache, by a digest of its text and of the installed Coq.
 
 exit status: 0 coqc accepts all, and the axioms are those named; 1 Coq or a part of it is missing or
              too old, it was killed or ran out of memory or time, or no way is found to write the
@@ -51,7 +50,6 @@ exit status: 0 coqc accepts all, and the axioms are those named; 1 Coq or a part
 
 examples:
   python -m proofs formal reports/horseshoe.json
-  python -m proofs formal reports/horseshoe.json --floats --out coq
   python -m proofs horseshoe --nu -0.201 --out mine && python -m proofs formal mine/horseshoe.json
   python -m proofs formal reports/nonplastic.json --brief
   python -m proofs formal reports/systems/logistic/horseshoe.json
@@ -69,7 +67,6 @@ def main(arguments: list[str] | None = None) -> int:
         "--arithmetic", action="store_true", help="prove that the checker's own arithmetic encloses"
     )
     add("--out", type=Path, default=Path("formal"), metavar="DIR", help="default: formal")
-    add("--floats", action="store_true", help="compute with machine floats: less time, more axioms")
     about = "enter what coqc accepts in the project's record, which the ledger shows"
     add("--record", action="store_true", help=about)
     add("--brief", action="store_true", help="print the theorems alone, as Coq has them")
@@ -79,8 +76,8 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     if options.arithmetic == (options.certificate is not None):
         parser.error("a certificate is expected, or --arithmetic")
-    if options.record and (options.arithmetic or options.floats):
-        parser.error("--record is about a certificate, with Coq's own integers")
+    if options.record and options.arithmetic:
+        parser.error("--record is about a certificate")
     made = _made(parser, options)
     if isinstance(made, int):
         return made
@@ -107,7 +104,7 @@ def _made(parser: Parser, options: Namespace) -> Case | int:
         return arithmetic()
     name = options.certificate
     try:
-        return _of_certificate(read(name), options.floats)
+        return _of_certificate(read(name))
     except (Malformed, Rejected) as error:
         parser.error(f"{name}: {error}")
     except OSError as error:
@@ -117,7 +114,7 @@ def _made(parser: Parser, options: Namespace) -> Case | int:
         return 1
 
 
-def _of_certificate(source: str, floats: bool) -> Case:
+def _of_certificate(source: str) -> Case:
     """Check a certificate, and return its case: of graphs, of rectangles or of a horseshoe."""
     report, of = check(source), digest(source)
     if report.parameters is None:
@@ -125,7 +122,7 @@ def _of_certificate(source: str, floats: bool) -> Case:
     claims = {claim.id for claim in report.claims}
     if claims.isdisjoint(CLAIMS) and not claims.isdisjoint(rebounds.CLAIMS):
         return rebounds.case(report, source, of)
-    return cases.case(plan(source, report), of, floats)
+    return cases.case(plan(source, report), of)
 
 
 def arithmetic() -> Case:
@@ -147,9 +144,8 @@ def _prove(
     )
     times, written = coqc.seconds(made.text, done.output, names), coqc.statements(made.text, names)
     found = coqc.axioms(done.output)
-    others = sorted(set(found) - (coqc.MACHINE if options.floats else coqc.REALS))
+    others = sorted(set(found) - coqc.REALS)
     answer: Answer = {
-        "arithmetic": "floats" if options.floats else "integers",
         "theorems": [
             {
                 "name": name,
@@ -193,17 +189,14 @@ def _brief(answer: Answer) -> str:
 
 def _text(answer: Answer, folder: Path) -> str:
     """Return what is proved, for people."""
-    theorems, axioms = answer["theorems"], answer["axioms"]
+    theorems = answer["theorems"]
     lines = [f"{each['name']:18} {each['seconds']:>5} s  {each['says']}" for each in theorems]
-    named = [name for name in axioms if name in coqc.REALS]
-    more = len(axioms) - len(named)
     return "\n".join(
         [
             *lines,
             *(f"not stated: {each}" for each in answer["left_out"]),
-            f"axioms of all together: {', '.join(named)}"
-            + (f", and {more} on machine integers and floats" if more else ""),
-            f"coqc accepts {len(theorems)} theorems in {folder}/{MODULE}.v, with "
-            f"{answer['arithmetic']}: {answer['seconds']} s, {answer['megabytes']} MB",
+            f"axioms of all together: {', '.join(answer['axioms'])}",
+            f"coqc accepts {len(theorems)} theorems in {folder}/{MODULE}.v: "
+            f"{answer['seconds']} s, {answer['megabytes']} MB",
         ]
     )

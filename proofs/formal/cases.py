@@ -45,9 +45,11 @@ class Theorems(Lemmas):
             name, says, theorem_text.HORSESHOE, **values, **signs, avoid=self.avoid[sets.name]
         )
         self.stated = {"of": name, "s1": signs["s1"], **values}
-        for follows, words in theorem_text.FOLLOWS_IN_WORDS.items():
+        for follows, (what, by, words) in theorem_text.CONSEQUENCES.items():
             if least > 2 or follows != "measure_zero":
-                self.state(follows, words, theorem_text.FOLLOWS[follows], of=name, **values)
+                self.state(
+                    follows, words, theorem_text.FOLLOWS, of=name, what=what, by=by, **values
+                )
             else:
                 self.left_out.append(
                     f"{follows}: stated where |f'| > 2, and its bound here is {show(least)}"
@@ -222,17 +224,14 @@ def _widened(inner: Range, by: Fraction) -> Range:
     return (inner[0] - by) // by * by, -(-(inner[1] + by) // by) * by
 
 
-def case(plan: Plan, digest: str, floats: bool) -> Case:
-    """Return the Coq file of a plan, for Coq's integers or for machine floats."""
+def case(plan: Plan, digest: str) -> Case:
+    """Return the Coq file of a plan."""
     writer = Theorems(plan)
     writer.write()
     bits = max(_BITS, 16 - math.floor(math.log2(writer.finest)))
-    precision = "" if floats and bits <= 53 else f"i_prec {bits}"
     head = lemma_text.HEAD.format(
         digest=digest,
-        arithmetic=lemma_text.FLOATS if floats else lemma_text.INTEGERS,
-        plain=precision and f" with ({precision})",
-        bits=precision and f", {precision}",
+        bits=bits,
         **fields(side=writer.hints.side, eta=plan.of.eta, nu=plan.of.nu),
     )
     return writer.ended(head)

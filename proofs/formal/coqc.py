@@ -35,26 +35,6 @@ REALS = frozenset(  # the axioms of the standard library's real numbers
         "FunctionalExtensionality.functional_extensionality_dep",
     }
 )
-_MACHINE = {
-    "PrimInt63": """
-        int add addc addcarryc addmuldiv compare div diveucl diveucl_21 eqb head0 land leb lor lsl
-        lsr ltb lxor mod mul mulc sub subc subcarryc tail0""",
-    "Uint63": """
-        add_spec addc_def_spec addcarryc_def_spec addmuldiv_def_spec compare_def_spec div_spec
-        diveucl_21_spec diveucl_def_spec eqb_correct eqb_refl head0_spec land_spec leb_spec lor_spec
-        lsl_spec lsr_spec ltb_spec lxor_spec mod_spec mul_spec mulc_spec of_to_Z sub_spec
-        subc_def_spec subcarryc_def_spec tail0_spec""",
-    "PrimFloat": """
-        float abs add classify compare div eqb frshiftexp ldshiftexp ltb mul next_down next_up
-        normfr_mantissa of_uint63 opp sqrt sub""",
-    "FloatAxioms": """
-        Prim2SF_SF2Prim Prim2SF_valid SF2Prim_Prim2SF abs_spec add_spec classify_spec compare_spec
-        div_spec eqb_spec frshiftexp_spec ldshiftexp_spec ltb_spec mul_spec next_down_spec
-        next_up_spec normfr_mantissa_spec of_uint63_spec opp_spec sqrt_spec sub_spec""",
-}
-MACHINE = REALS | {  # and the specifications of machine integers and floats
-    f"{module}.{name}" for module, names in _MACHINE.items() for name in names.split()
-}
 
 
 class Missing(RuntimeError):

@@ -40,7 +40,7 @@ _WRITTEN = {  # of an operation on parts: a real number, and a tree of Formula.v
 }
 
 HEAD = """\
-(* Written by python -m proofs formal from the certificate with the SHA-256
+(* Written by python -m proofs formal from the certificate with the digest
    {digest}.
    Not trusted: Coq computes and proves. To be read: Graph.v, for the plane
    Histories.v, and the map, the sets, the arrows and the theorems stated here. *)

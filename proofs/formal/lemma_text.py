@@ -1,18 +1,15 @@
 """The Coq text of lemmas, that `lemmas` fills in."""
 
-FLOATS = "From Interval Require Import Tactic."
-INTEGERS = """From Interval Require Import Specific_stdz Specific_ops.
-From Interval Require Tactic.
-Module Integers := SpecificFloat StdZRadix2.
-Module Exact := Tactic.IntervalTactic Integers.
-Import Tactic Exact."""
-
-HEAD = """(* Written by python -m proofs formal from the certificate with the SHA-256
+HEAD = """(* Written by python -m proofs formal from the certificate with the digest
    {digest}.
    Not trusted: coqc proves every line. To be read: Impact.v, and the theorems stated here. *)
 From Coq Require Import Reals ZArith Psatz Lia List.
 From Coquelicot Require Import Coquelicot.
-{arithmetic}
+From Interval Require Import Specific_stdz Specific_ops.
+From Interval Require Tactic.
+Module Integers := SpecificFloat StdZRadix2.
+Module Exact := Tactic.IntervalTactic Integers.
+Import Tactic Exact.
 From Oscillator Require Import Impact Chaos Flight Shift Numbers March Corrected Flights Graph Cells
   Verdicts Consequences Lambda Claims.
 Import ListNotations.
@@ -40,11 +37,12 @@ Ltac over E x := generalize (E x ltac:(lra)) PI_near; unfold lift; lra.
 Ltac slopes r0 r1 b0 b1 := intros [|] x X; unfold In_ in X; exists (rate x);
   [split; [apply (slope_at_rate side eta nu _ _ b1); lra | generalize (r1 x X); lra] |
    split; [apply (slope_at_rate side eta nu _ _ b0); lra | generalize (r0 x X); lra]].
-Ltac num := intros; unfold Impact.gap, Flight.gap_t, Flight.gap_tt, Flight.slope, side, eta, nu.
-Ltac at_once := num; interval{plain}.
-Ltac one p := num; interval with (i_bisect p, i_autodiff p, i_depth 60{bits}).
-Ltac two p t := num; interval with (i_bisect t, i_bisect p, i_depth 60{bits}).
-Ltac sloping p e := num; split; interval with (i_bisect p, i_bisect e, i_autodiff p, i_depth 60{bits}).
+Ltac num := intros; unfold Impact.gap, Flight.slope, Flight.gap_t, Flight.gap_tt, Restitution.height_t,
+  Restitution.height_tt, Rebounds.kick, side, eta, nu.
+Ltac at_once := num; interval with (i_prec {bits}).
+Ltac one p := num; interval with (i_bisect p, i_autodiff p, i_depth 60, i_prec {bits}).
+Ltac two p t := num; interval with (i_bisect t, i_bisect p, i_depth 60, i_prec {bits}).
+Ltac sloping p e := num; split; interval with (i_bisect p, i_bisect e, i_autodiff p, i_depth 60, i_prec {bits}).
 """
 
 BRANCH = """
@@ -88,8 +86,8 @@ Proof. split; [lra | first [left; lra | right; lra] | lra | intros phi P; genera
 IMPACT = """
 Lemma {name} : forall phi, {p} <= phi <= {q} -> {s} < impact_time phi < {t}.
 Proof.
-  apply (bracket side eta nu eta_pos _ _ _ _ _ branch{branch} _ _ (fun _ => {s}) (fun _ => {t}));
-    [lra | intros; lra | one phi | one phi].
+  intros phi P. apply (branch_bracket side eta nu eta_pos _ _ _ _ _ branch{branch});
+    [lra | lra | lra | one phi | one phi].
 Qed.
 """
 
@@ -119,30 +117,26 @@ Lemma {name}{j}_launch : forall phi t, {p} <= phi <= {q} -> 0 <= t <= {T} -> 0 <
 Proof. two phi t. Qed.
 Lemma {name}{j}_below : forall phi, {p} <= phi <= {q} -> gap phi {v} < 0.
 Proof. one phi. Qed.
-Lemma {name}{j} : forall phi psi, {p} <= phi <= {q} -> next phi psi -> ~ {A} <= psi <= {B}.
+Lemma {name}{j} : forall phi, {p} <= phi <= {q} ->
+  (exists psi, next phi psi) /\\ forall psi, next phi psi -> ~ {A} <= psi <= {B}.
 Proof.
-  apply (escape side eta nu eta_pos {p} {q} {T} {A} {B} {K} {v});
+  intros phi P. split.
+  {{ destruct (impact_exists side eta nu eta_pos phi {T} {v}) as [t I];
+      [lra | intros; apply {name}{j}_launch; lra | lra | apply {name}{j}_below; lra |].
+    apply (next_exists _ _ _ phi t I). }}
+  intros psi. revert phi psi P. apply (escape side eta nu eta_pos {p} {q} {T} {A} {B} {K} {v});
     [lra | lra | lra | lra | generalize PI_near; lra | generalize PI_near; lra |
      apply {name}{j}_launch | | apply {name}{j}_below].
   intros k phi psi H P S.
   assert (C : {cases}) by lia.
   clear H; repeat destruct C as [-> | C]; try (subst k || destruct C); two phi psi.
 Qed.
-Lemma {name}{j}_meets : forall phi, {p} <= phi <= {q} -> exists psi, next phi psi.
-Proof.
-  intros phi P. destruct (impact_exists side eta nu eta_pos phi {T} {v}) as [t I];
-    [lra | intros; apply {name}{j}_launch; lra | lra | apply {name}{j}_below; lra |].
-  apply (next_exists _ _ _ phi t I).
-Qed.
 """
 
 AVOIDS = """
-Lemma {name} : forall phi psi, {p} <= phi <= {q} -> next phi psi -> ~ {A} <= psi <= {B}.
+Lemma {name} : forall phi, {p} <= phi <= {q} ->
+  (exists psi, next phi psi) /\\ forall psi, next phi psi -> ~ {A} <= psi <= {B}.
 Proof.
-  intros phi psi P N.{cuts}
-Qed.
-Lemma {name}_meets : forall phi, {p} <= phi <= {q} -> exists psi, next phi psi.
-Proof.
-  intros phi P.{met}
+  intros phi P.{cuts}
 Qed.
 """

@@ -221,11 +221,7 @@ class Lemmas(Writer):
             self.add(text.ESCAPE, **named, **escape._asdict())
         parts = [(f"{name}{j}", escape.q) for j, escape in enumerate(escapes)]
         named = {"name": name, "A": target[0], "B": target[1], "p": phases[0], "q": phases[1]}
-        cuts, met = (
-            by_cases(parts, "apply ({} phi psi); [lra | exact N]"),
-            by_cases(parts, "apply {}_meets; lra"),
-        )
-        self.add(text.AVOIDS, **named, cuts=cuts, met=met)
+        self.add(text.AVOIDS, **named, cuts=by_cases(parts, "apply {}; lra"))
 
     def leaving(self) -> None:
         """Write that the gap leaves I: for the horseshoe and for H4 at once, if that can be."""

@@ -1,6 +1,6 @@
 """The Coq text on two rectangles of states with restitution, that `rebounds` fills in."""
 
-HEAD = """(* Written by python -m proofs formal from the certificate with the SHA-256
+HEAD = """(* Written by python -m proofs formal from the certificate with the digest
    {digest}.
    Not trusted: Coq computes and proves. To be read: Rebounds.v, and the theorems stated here. *)
 From Coq Require Import Reals ZArith Psatz List.

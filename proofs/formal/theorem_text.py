@@ -29,8 +29,8 @@ HORSESHOE = (
 Proof.
   eapply corrected with (3 := regular0) (4 := regular1) (5 := monotone_horseshoe0)
     (6 := monotone_horseshoe1) (7 := covers_horseshoe0) (8 := covers_horseshoe1);
-    [lra | lra | | lra | intros phi P; apply {avoid}_meets; lra].
-  intros phi psi P N H. apply ({avoid} phi psi); auto; lra.
+    [lra | lra | | lra | intros phi P; apply {avoid}; lra].
+  intros phi psi P N H. apply (proj2 ({avoid} phi ltac:(lra)) psi N). lra.
 Qed.
 """
 )
@@ -40,8 +40,8 @@ H4_VERIFIED = (
     + r"""Theorem {name} : forall phi, {y0} < phi < {x1} ->
   (exists psi, next phi psi) /\ forall psi, next phi psi -> ~ {A} <= psi <= {B}.
 Proof.
-  intros phi P. split; [apply {avoid}_meets; lra |].
-  intros psi N H. apply ({avoid} phi psi); auto; lra.
+  intros phi P. destruct ({avoid} phi ltac:(lra)) as [E L]. split; [exact E |].
+  intros psi N H. apply (L psi N). lra.
 Qed.
 """
 )
@@ -112,10 +112,10 @@ H6_VERIFIED = (
 Proof.
   intros c d L J [|] x y u v X Y O N N' U V; unfold In_ in X, Y.
   - apply (shorter {m1}); [lra | lra | lra |].
-    apply (short_preimage side eta nu _ _ regular1 _ _ _ _ _ monotone_printed1 {x0} {y1}) with u v;
+    apply (short_preimage side eta nu eta_pos _ _ regular1 _ _ _ _ _ monotone_printed1 {x0} {y1}) with u v;
       auto; try lra. generalize PI_near; lra.
   - apply (shorter {m0}); [lra | lra | lra |].
-    apply (short_preimage side eta nu _ _ regular0 _ _ _ _ _ monotone_printed0 {x0} {y1}) with u v;
+    apply (short_preimage side eta nu eta_pos _ _ regular0 _ _ _ _ _ monotone_printed0 {x0} {y1}) with u v;
       auto; try lra. generalize PI_near; lra.
 Qed.
 """
@@ -165,7 +165,7 @@ Proof.
   eapply two_preimages with (3 := regular0) (4 := regular1) (5 := monotone_printed0)
     (6 := monotone_printed1) (7 := covers_printed0) (8 := covers_printed1);
     [lra | lra | | lra | lra | lra].
-  intros phi psi P N H. apply ({avoid} phi psi); auto; lra.
+  intros phi psi P N H. apply (proj2 ({avoid} phi ltac:(lra)) psi N). lra.
 Qed.
 """
 )
@@ -184,35 +184,33 @@ Qed.
 )
 
 
-FOLLOWS = {
-    "theorem_3": SAYS
-    + """Theorem {name} : chaos next (stays next {A} {B}).
+FOLLOWS = (
+    SAYS
+    + """Theorem {name} : {what} (stays next {A} {B}).
 Proof.
-  apply (chaos_theorem next {A} {b0} {a1} {B} {m} {M});
-    [lra | lra | apply next_unique | exact (proj2 (proj2 {of}))].
+  apply ({by} next {A} {b0} {a1} {B} {m} {M});
+    first [lra | apply next_unique | exact (proj2 (proj2 {of}))].
 Qed.
-""",
-    "theorem_4": SAYS
-    + """Theorem {name} : cantor_set (stays next {A} {B}).
-Proof.
-  apply (cantor_theorem next {A} {b0} {a1} {B} {m} {M});
-    [lra | lra | lra | exact (proj2 (proj2 {of}))].
-Qed.
-""",
-    "measure_zero": SAYS
-    + """Theorem {name} : null (stays next {A} {B}).
-Proof.
-  apply (null_theorem next {A} {b0} {a1} {B} {m} {M});
-    [lra | lra | exact (proj2 (proj2 {of})) | lra].
-Qed.
-""",
-}
-FOLLOWS_IN_WORDS = {
-    "theorem_3": "among the phases that stay in I, 2^n are fixed by f^n for every n > 0, there are "
-    "orbits of every least period, uncountably many nonperiodic orbits, and a dense one",
-    "theorem_4": "the phases that stay in I are a Cantor set: compact, without isolated points, and "
-    "without an interval",
-    "measure_zero": "the phases that stay in I have Lebesgue measure zero",
+"""
+)
+CONSEQUENCES = {  # of the horseshoe: what is stated, by which theorem of Consequences.v, in words
+    "theorem_3": (
+        "chaos next",
+        "chaos_theorem",
+        "among the phases that stay in I, 2^n are fixed by f^n for every n > 0, there are orbits of "
+        "every least period, uncountably many nonperiodic orbits, and a dense one",
+    ),
+    "theorem_4": (
+        "cantor_set",
+        "cantor_theorem",
+        "the phases that stay in I are a Cantor set: compact, without isolated points, and without "
+        "an interval",
+    ),
+    "measure_zero": (
+        "null",
+        "null_theorem",
+        "the phases that stay in I have Lebesgue measure zero",
+    ),
 }
 
 FOLLOWED = """

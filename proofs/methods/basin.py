@@ -20,7 +20,6 @@ _NEAR = 3e-11  # images as close to a cut are meant to be there
 _SHARE = 8  # one cell in so many is cut in each round
 _DEEPEST = 6  # how far on a cell is looked for that can be cut
 _MOST_VISITS = 300.0
-_LEAN = 4e-11  # more than images are off
 
 
 class Piece(NamedTuple):
@@ -88,15 +87,14 @@ class Mesh:
     density: Callable[[Cutting], Density]
     landed: Sequence[float]
     sink: float | None
-    parents: Whole = field(default_factory=lambda: np.zeros(0, np.int64))
     made: Cutting = field(
         default_factory=lambda: Cutting(
             np.zeros(0), np.zeros(0, np.int64), np.zeros(0), np.zeros(0, np.int64)
         )
     )
 
-    def add(self, new: Cutting, parents: Whole) -> None:
-        """Add cuts; parents: the cuts that are their images, as they were made, -1 if none."""
+    def add(self, new: Cutting) -> None:
+        """Add cuts."""
         old = self.made
         self.made = Cutting(
             np.concatenate([old.phases, new.phases]),
@@ -104,22 +102,21 @@ class Mesh:
             np.concatenate([old.images, new.images]),
             np.concatenate([old.turns, new.turns]),
         )
-        self.parents = np.concatenate([self.parents, parents])
 
-    def add_preimages(self, branch: int, lifted: Floats, parents: Whole) -> None:
+    def add_preimages(self, branch: int, lifted: Floats, cuts: Whole) -> None:
         """Add the phases of a branch that are mapped to images on the line, unless too close."""
         turns = np.floor((lifted - self.origin + _NEAR) / math.tau).astype(np.int64)
-        images = self.made.phases[parents]
+        images = self.made.phases[cuts]
         phases = self.inverse(branch, images, turns)
-        cuts = np.sort(self.made.phases)
-        place = np.clip(np.searchsorted(cuts, phases), 1, len(cuts) - 1)
-        gap = np.minimum(abs(cuts[place] - phases), abs(cuts[place - 1] - phases))
+        order = np.sort(self.made.phases)
+        place = np.clip(np.searchsorted(order, phases), 1, len(order) - 1)
+        gap = np.minimum(abs(order[place] - phases), abs(order[place - 1] - phases))
         low, high = self.branches[branch].phases
         keep = (gap > 1e-12) & (low < phases) & (phases < high)
         _, first = np.unique(phases, return_index=True)
         keep &= np.isin(np.arange(len(phases)), first)
         where = np.full(int(keep.sum()), branch)
-        self.add(Cutting(phases[keep], where, images[keep], turns[keep]), parents[keep])
+        self.add(Cutting(phases[keep], where, images[keep], turns[keep]))
 
     def seed(self) -> None:
         """Add all preimages of the cuts that are on no branch."""
@@ -139,34 +136,10 @@ class Mesh:
             if followed.lost.sum() < goal or len(self.made.phases) >= most:
                 return followed
             before = len(self.made.phases)
-            for branch, (lifted, parents) in followed.wanted().items():
-                self.add_preimages(branch, np.array(lifted), np.array(parents))
+            for branch, (lifted, cuts) in followed.wanted().items():
+                self.add_preimages(branch, np.array(lifted), np.array(cuts))
             if len(self.made.phases) == before:
                 return followed
-
-    def leaning(self, steps: Floats) -> Cutting:
-        """Return all cuts in order, moved so that their images lean to what is absorbed sooner.
-
-        steps: of the cells in order, infinite where they are not absorbed.
-        """
-        order = np.argsort(self.made.phases)
-        with np.errstate(invalid="ignore"):
-            later = np.nan_to_num(np.diff(steps, prepend=np.inf))
-        side = np.zeros(len(order))
-        side[order] = -_LEAN * np.sign(later[: len(order)])
-        phases, images = self.made.phases.copy(), self.made.images.copy()
-        generation = np.zeros(len(order), np.int64)
-        for i in np.flatnonzero(self.parents >= 0):
-            generation[i] = generation[self.parents[i]] + 1
-        for count in range(1, int(generation.max(initial=0)) + 1):
-            for branch in range(len(self.branches)):
-                at = np.flatnonzero((generation == count) & (self.made.branch == branch))
-                image = self.parents[at]
-                images[at] += phases[image] - self.made.phases[image] + side[image]
-                phases[at] = self.inverse(branch, images[at], self.made.turns[at])
-        return Cutting(
-            phases[order], self.made.branch[order], images[order], self.made.turns[order]
-        )
 
 
 @dataclass
@@ -174,7 +147,7 @@ class Followed:
     """What becomes of the cells of a mesh: bounds, as in `s34_circle.cells`, up to rounding.
 
     left: of what is not absorbed; held: of what comes to the sink; lost: how much finer cells
-    might gain at each; absorbed: after how many steps all of a cell is absorbed, or infinity.
+    might gain at each.
     """
 
     mesh: Mesh
@@ -187,7 +160,6 @@ class Followed:
     left: Floats
     held: Floats
     lost: Floats
-    absorbed: Floats
 
     @classmethod
     def of(cls, mesh: Mesh, steps: int) -> Followed:
@@ -222,8 +194,7 @@ class Followed:
             visits = np.minimum(1 + flow, _MOST_VISITS)
         error = (links.dense - links.sparse) * np.minimum(left[links.target], links.common)
         lost = np.where(mixed, np.bincount(links.source, error, minlength=count) * visits, 0)
-        absorbed = _absorbed(links, moving, landed, steps)
-        return cls(mesh, order, cutting, marks, low, high, links, left, held, lost, absorbed)
+        return cls(mesh, order, cutting, marks, low, high, links, left, held, lost)
 
     def wanted(self) -> dict[int, tuple[list[float], list[int]]]:
         """Return by branch the images at whose preimages to cut, and the cuts that they are."""
@@ -300,18 +271,3 @@ def _links(
         np.nan_to_num(dense, nan=1e6, posinf=1e6),
         np.maximum(0, np.nan_to_num(sparse, neginf=0)),
     )
-
-
-def _absorbed(
-    links: Links, moving: NDArray[np.bool_], landed: NDArray[np.bool_], steps: int
-) -> Floats:
-    """Return after how many steps all of a cell is absorbed: when all are that its image meets."""
-    count = len(moving)
-    met = links.common > _NEAR
-    source, target = links.source[met], links.target[met]
-    counts = np.where(landed, 1.0, np.inf)
-    counts[-1] = 0.0
-    for n in range(1, steps + 1):
-        open_ones = np.bincount(source, np.isinf(counts)[target], minlength=count)
-        counts = np.where(np.isinf(counts) & moving & (open_ones == 0), float(n), counts)
-    return counts

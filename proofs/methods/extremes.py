@@ -52,11 +52,10 @@ def extremes(
 ) -> Extremes:
     """Enclose min g and max g over [points[0], points[-1]].
 
-    A piece is final where g' has one sign on it, where its range is narrower than `tolerance`,
-    or where values of g elsewhere make it useless for both extremes; of the others, that of the
-    widest range is halved, first those on which dg raises. When there are `most`
-    pieces, they stay as wide as they are: the bounds hold all the same. Raises Undecided if dg
-    has no answer then.
+    A piece is final where g' has one sign on it, or where its range is narrower than `tolerance`;
+    of the others, that of the widest range is halved, first those on which dg raises. When there
+    are `most` pieces, they stay as wide as they are: the bounds hold all the same. Raises Undecided
+    if dg has no answer then.
     """
     at_points: dict[Fraction, Range] = {}
     done: list[_Piece] = []
@@ -81,20 +80,10 @@ def extremes(
         else:
             heappush(waiting, piece)
 
-    def useless(values: Range) -> bool:
-        least, greatest = (
-            min(v[1] for v in at_points.values()),
-            max(v[0] for v in at_points.values()),
-        )
-        return least <= values[0] and values[1] <= greatest
-
     for low, high in pairwise(points):
         examine(low, high)
     while waiting and len(done) + len(waiting) < most:
         piece = heappop(waiting)
-        if piece.values is not None and useless(piece.values):
-            done.append(piece)
-            continue
         middle = (piece.low + piece.high) / 2
         examine(piece.low, middle)
         examine(middle, piece.high)

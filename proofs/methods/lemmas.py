@@ -176,33 +176,6 @@ class Lemmas(Derivation):
 
     # -- zeros ---------------------------------------------------------------------------------
 
-    def zero(self, text: str, value: str, bracket: tuple[Number, Number]) -> str:
-        """Add a step `zero`, about the function of a step by `value` or its derivative."""
-        witness = {"function": text, "value": value, "bracket": texts(exact([bracket])[0])}
-        return self.add("zero", witness)
-
-    def root(self, text: str, sign: int, tolerance: Number = "1/1000000000000", **box: Any) -> str:
-        """Add a step `zero` with a bracket of this width, where the derivative has a sign."""
-        (name,) = box
-        value, width = self.sign(f"D({text}, {name})", sign, **box), Fraction(tolerance)
-        formulas, ((low, high),) = read_formulas(Reader(text)), exact(list(box.values()))
-        bits = 60 + (1 / width).__ceil__().bit_length()
-        first, last = low, high
-        while high - low > width / 4:
-            # next to the root, or at it, take another point
-            for middle in ((low + high) / 2, (low + 2 * high) / 3):
-                (side,) = values(formulas, [Interval(middle, precision=bits)])
-                if not side.contains_zero():
-                    break
-            else:
-                raise Undecided("the sign beside the root")
-            if (side.inf > 0) == (sign > 0):
-                high = middle
-            else:
-                low = middle
-        bracket = max(first, low // width * width), min(last, -(-high // width) * width)
-        return self.zero(text, value, bracket)
-
     def unique_zero(
         self, function: str, guess: Sequence[Number], radius: Number, *, bits: int = 64
     ) -> str:

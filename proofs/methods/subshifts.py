@@ -38,10 +38,11 @@ _LEAST = 1e-9  # value of a state from which few paths stay, beside the greatest
 
 
 @dataclass(frozen=True)
-class Subshift:
-    """States, and a vector v of whole numbers with A v >= growth v for the covering graph A.
+class Growing:
+    """States, and a vector v of whole numbers that bounds the growth of paths of a graph A.
 
-    growth is at most the spectral radius of A (Collatz and Wielandt).
+    From below, A v >= growth v, or from above, A v <= growth v, all entries of v being positive
+    (Collatz and Wielandt).
     """
 
     states: tuple[Range, ...]
@@ -102,7 +103,7 @@ def _images(
 
 def largest_subshift(
     pieces: Sequence[Range], image: Image, states: Sequence[Range]
-) -> Subshift | None:
+) -> Growing | None:
     """Return the subshift of greatest growth found on the states; None if no path goes on.
 
     The value v_i of a state is the number of long paths from it. An edge goes to the state of
@@ -127,7 +128,7 @@ def largest_subshift(
         if source in sums:
             sums[source] += value_of[target]
     growth = min(Fraction(sums[i], v) for i, v in value_of.items() if v)
-    return Subshift(tuple(states[i] for i in kept), tuple(vector), growth)
+    return Growing(tuple(states[i] for i in kept), tuple(vector), growth)
 
 
 def _choices(
@@ -169,18 +170,6 @@ def _reached(first: int, sources: NDArray[np.intp], targets: NDArray[np.intp]) -
 # -- from above ------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class Ceiling:
-    """States, and a vector v of positive whole numbers with A v <= growth v for the outer graph A.
-
-    From each state an edge leads, for each image, to a state that contains it.
-    """
-
-    states: tuple[Range, ...]
-    vector: tuple[int, ...]
-    growth: Fraction
-
-
 def outer_tower(interval: Range, images: Images, depth: int, places: int) -> list[Range]:
     """Return an interval, and what holds the images of its parts, of theirs, and so on.
 
@@ -198,10 +187,11 @@ def outer_tower(interval: Range, images: Images, depth: int, places: int) -> lis
     return sorted(states)
 
 
-def least_ceiling(states: Sequence[Range], images: Images) -> Ceiling:
+def least_ceiling(states: Sequence[Range], images: Images) -> Growing:
     """Return the outer graph of least growth found on states, one of which contains all images.
 
-    Edges lead to the state of least value that contains an image; see `largest_subshift`.
+    From each state an edge leads, for each image, to the state of least value that contains it; see
+    `largest_subshift`.
     """
     lows, highs = (np.array([float(x) for x in side]) for side in zip(*states, strict=True))
     sources, choices = [], []
@@ -220,4 +210,4 @@ def least_ceiling(states: Sequence[Range], images: Images) -> Ceiling:
     for source, target in zip(sources, targets.tolist(), strict=True):
         totals[source] += vector[target]
     growth = max(Fraction(total, v) for total, v in zip(totals, vector, strict=True))
-    return Ceiling(tuple(states), tuple(vector), growth)
+    return Growing(tuple(states), tuple(vector), growth)

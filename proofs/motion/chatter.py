@@ -7,7 +7,6 @@ little (Lemma 1), and bounces that are weak enough add up to a rest (Lemma 2).
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -16,7 +15,7 @@ from proofs.trusted.equations import clock, gap, launch, launch_acceleration
 from proofs.trusted.flights import Motion, lifted
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.numbers import COVER_BITS, Range
-from proofs.trusted.paper.s34_circle.bounces import Box, State, bounce, kicked, push
+from proofs.trusted.paper.s34_circle.bounces import Box, State, bounce, kicked, rest_phase
 from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.paper.s34_circle.persistence import Cell
 from proofs.trusted.parameters import Place
@@ -26,7 +25,6 @@ _WIDENINGS = 7
 _NEWTON = 3  # steps, each doubling the digits
 _CLOSE = 1e-12
 _MOST_BOUNCES = 60
-_RATIO_GRID = 2**10
 
 
 def around(arc: Separation, spread: Fraction) -> Box:
@@ -53,43 +51,24 @@ class Pushing:
     bits: int = COVER_BITS
     grid: int = 2**24
 
-    def settle(self, epsilon: Range, phases: Range, speeds: Range) -> Cell:
+    def settle(
+        self, epsilon: Range, phases: Range, speeds: Range, leave: Range | None = None
+    ) -> tuple[Cell, Fraction | None]:
         """Prove that impacts at these phases, with these speeds before, end in rest before `last`.
 
-        Bounces are enclosed one by one until Lemma 2 applies; Undecided if a bounce may leave the
-        arc, or the bounces become so many that it will not apply.
+        Bounces are enclosed one by one until Lemma 2 applies, or the mass flies at all phases of
+        `leave`. Return them, and when they end, if they do; Undecided if a bounce may leave the
+        arc, or they become so many that neither is so.
         """
         bounces: list[Range] = []
         while len(bounces) < _MOST_BOUNCES:
             kicks = epsilon[0] * speeds[0], epsilon[1] * speeds[1]
-            ending = self.ending(epsilon[1], phases, kicks[1])
-            if ending is not None:
-                return Cell(epsilon, bounces, ending)
+            rest = rest_phase(self.at, phases, kicks[1], epsilon[1], self.last)
+            if rest is not None or (leave is not None and self.flies(phases, kicks, leave)):
+                return Cell(epsilon, bounces), rest
             time, (phases, speeds) = self.bounce(phases, kicks)
             bounces.append(time)
         raise Undecided(f"{_MOST_BOUNCES} bounces and no rest")
-
-    def ending(
-        self, epsilon: Fraction, phases: Range, kick: Fraction
-    ) -> tuple[Fraction, Fraction] | None:
-        """Return (ratio, rest) that satisfy the hypotheses of Lemma 2, None if none is found.
-
-        The phase of rest is sought from below: the longer the arc, the weaker its push.
-        """
-        rest = phases[1]
-        for _ in range(_WIDENINGS):
-            strong, weak = push(self.at, (phases[0], rest))
-            if weak >= 0:
-                return None
-            least = float(epsilon) * math.sqrt(strong / weak) * (1 + 1e-9)
-            ratio = _up(Fraction(least), _RATIO_GRID)
-            if ratio >= 1:
-                return None
-            end = phases[1] + 2 * kick / (-weak * (1 - ratio))
-            if end <= rest < self.last:
-                return ratio, rest
-            rest = _up(end + (end - phases[1]) / 16, self.grid)
-        return None
 
     def bounce(self, phases: Range, kicks: Range) -> tuple[Range, State]:
         """Bracket the next impact after all bounces given; return times, and the next state.

@@ -13,7 +13,7 @@ import numpy as np
 from intervals import Interval, Undecided
 from proofs.methods.orbits import Floats
 from proofs.methods.words import Symbols
-from proofs.motion.many import float_clock, float_launch, next_impacts
+from proofs.motion.many import next_impacts
 from proofs.motion.system import System
 from proofs.motion.witness import HORIZON
 from proofs.trusted.equations import Clock, Launch, clock, gap, launch, slope
@@ -81,9 +81,9 @@ class ImpactMap:
     def approximate(self, symbols: Symbols, x: Floats) -> tuple[Floats, Floats]:
         """Return about f and f', by Newton's method from the flights that are seen."""
         t = np.interp(x, *self._seen)
-        start = float_launch(self.system, x)
+        start = self.system.launched(x)
         for _ in range(_STEPS):
-            now = float_clock(self.system, t)
+            now = clock(float(self.system.eta), t)
             t = t - gap(start, now) / gap(start, now, 1)
         return x + t - 2.0 * np.pi * np.array(self.turns)[symbols], np.asarray(slope(start, now))
 

@@ -9,8 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from proofs.motion.simulate import CLOSE, NO_PUSH
-from proofs.motion.system import System
-from proofs.trusted.equations import Clock, Launch, gap, launch_acceleration, slope
+from proofs.trusted.equations import (
+    Launch,
+    clock,
+    gap,
+    launch,
+    launch_acceleration,
+    registered_sincos,
+    slope,
+)
 
 Floats = NDArray[np.float64]
 
@@ -27,29 +34,9 @@ class Impacts(NamedTuple):
     speeds: Floats
 
 
-def float_launch(system: System, phases: Floats) -> Launch:
-    """Return launches in floating point: for candidates, never evidence."""
-    return _launch(system.side, float(system.eta), float(system.nu), phases)
-
-
-def float_clock(system: System, times: Floats) -> Clock:
-    """Return the functions of time in floating point, likewise."""
-    return _clock(float(system.eta), times)
-
-
-def _launch(side: int, eta: Any, nu: Any, phases: Floats) -> Launch:
-    return Launch(side, eta, nu * np.sin(phases), nu * np.cos(phases))
-
-
-def _clock(eta: Any, times: Floats) -> Clock:
-    mass = eta * times
-    return Clock(np.sin(mass), np.cos(mass), np.sin(times), np.cos(times))
-
-
-def float_gap(side: int, eta: Any, nu: Any, phases: Any, times: Any) -> Floats:
-    """Return about the gap at times after launches; arrays broadcast."""
-    heights: Floats = gap(_launch(side, eta, nu, phases), _clock(eta, times))
-    return heights
+@registered_sincos.register
+def _(x: np.ndarray) -> tuple[Floats, Floats]:
+    return np.sin(x), np.cos(x)
 
 
 def separation_phases(eta: Any, nu: Any) -> Floats:
@@ -65,7 +52,7 @@ def next_impacts(
     """Return about the next impacts, as `simulate.next_impact` finds them; arrays broadcast."""
     given = np.broadcast_arrays(eta, nu, phases, horizons, kicks)
     eta, nu, phases, horizons, kicks = (np.asarray(x, float).ravel() for x in given)
-    start = _launch(side, eta, nu, phases)
+    start = launch(side, eta, nu, phases)
     pull = (math.pi - separation_phases(eta, nu) - phases) % math.tau
     pull = np.fmin(pull, 3 / eta) * (launch_acceleration(start) >= NO_PUSH)
     start = start._replace(kick=side * kicks)
@@ -74,14 +61,14 @@ def next_impacts(
     hits, going = np.full(eta.size, math.nan), np.flatnonzero(times > 0)
     while (going := going[times[going] < horizons[going]]).size:
         here = Launch(side, *(np.asarray(x)[going] for x in start[1:]))
-        now = _clock(here.eta, times[going])
+        now = clock(here.eta, times[going])
         height, speed, most = gap(here, now), gap(here, now, 1), bend[going]
         step = (speed + np.sqrt(np.maximum(speed * speed + 2 * most * height, 0.0))) / most
         hit = (height <= 0) | (step < CLOSE * times[going])
         hits[going[hit]] = times[going[hit]]
         times[going] += step
         going = going[~hit]
-    now = _clock(eta, hits)
+    now = clock(eta, hits)
     with np.errstate(all="ignore"):
         found = hits, phases + hits, slope(start, now), np.maximum(-gap(start, now, 1), 0.0)
     return Impacts(*(np.reshape(x, given[0].shape) for x in found))

@@ -10,9 +10,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from proofs.motion.many import Floats, float_clock, float_launch
+from proofs.motion.many import Floats
 from proofs.motion.system import System
-from proofs.trusted.equations import gap
+from proofs.trusted.equations import clock, gap
 
 _CHUNK = 1 << 14
 _HORIZON = 200
@@ -24,11 +24,11 @@ def march(system: System, phase: float, delta: float, horizon: float = _HORIZON)
     The printed algorithm does not end then; this one does at the horizon. s_n is the sign of the
     gap: that of (10) but for a common factor, which does not change s_1 s_n.
     """
-    start = float_launch(system, np.array([phase]))
+    start = system.launched(np.array([phase]))
     first = None
     for begin in range(1, int(horizon / delta) + 1, _CHUNK):
         times: Floats = np.arange(begin, begin + _CHUNK) * np.array([delta])
-        signs = np.sign(gap(start, float_clock(system, times)))
+        signs = np.sign(gap(start, clock(float(system.eta), times)))
         first = signs[0] if first is None else first
         opposite = np.flatnonzero(first * signs == -1)
         if opposite.size:

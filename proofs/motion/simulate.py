@@ -19,7 +19,6 @@ from proofs.trusted.equations import (
     clock,
     closing,
     gap,
-    launch,
     launch_acceleration,
     return_map_derivative,
     slope,
@@ -74,8 +73,7 @@ def landing(
 
     None where the mass would come from inside the table, sticks, or flies on.
     """
-    plastic = launch(system.side, float(system.eta), float(system.nu), phase)
-    speed = system.side * closing(plastic, gamma)
+    speed = system.side * closing(system.launched(phase), gamma)
     impact = next_impact(system, phase, horizon, epsilon * speed) if speed >= 0 else None
     return impact and impact._replace(epsilon=epsilon)
 
@@ -90,7 +88,7 @@ def next_impact(
     is (kick sin(eta t) + int_0^t sin(eta (t - s)) a(phase + s) ds) / eta. Then see `marched`.
     """
     eta, nu = float(system.eta), float(system.nu)
-    start = launch(system.side, eta, nu, phase)
+    start = system.launched(phase)
     acceleration = launch_acceleration(start)
     if kick:
         start = start._replace(kick=system.side * kick)

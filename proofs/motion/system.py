@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from typing import Any
 
+from proofs.trusted.equations import Launch, launch
 from proofs.trusted.parameters import Place
 
 
@@ -26,6 +28,10 @@ class System:
     def side(self) -> int:
         """The sign of nu: flight means side * (scaled distance) > 0. side = -1 is p > 0."""
         return 1 if self.nu > 0 else -1
+
+    def launched(self, phases: Any) -> Launch:
+        """Return launches in floating point, at a phase or an array of them."""
+        return launch(self.side, float(self.eta), float(self.nu), phases)
 
     @cached_property
     def place(self) -> Place:

@@ -16,13 +16,14 @@ from statistics import median
 import numpy as np
 from numpy.typing import NDArray
 
-from proofs.motion.many import Floats, float_launch, next_impacts
+from proofs.motion.many import Floats, next_impacts
 from proofs.motion.simulate import NO_PUSH, TURNS, WEAKEST
 from proofs.motion.system import System
 from proofs.trusted.equations import launch_acceleration
 
 EPSILONS = tuple(Fraction(k, 20) for k in range(8))
 INITIAL_STATES = 500
+FASTEST = 0.4
 Flags = NDArray[np.bool_]
 
 
@@ -70,7 +71,7 @@ class Motions:
             if not going.size:
                 return
             phases, kicks = self.phases[going], (self._epsilons * self.speeds)[going]
-            push = launch_acceleration(float_launch(system, phases))
+            push = launch_acceleration(system.launched(phases))
             still = (kicks < WEAKEST) & (push < NO_PUSH)
             horizons = np.minimum(math.tau * TURNS, self._until - self.times[going]) * ~still
             where = system.side, float(system.eta), float(system.nu), phases
@@ -106,28 +107,19 @@ def until_rest(
     return rests, np.where(rests, motions.times / math.tau, turns)
 
 
-def transients(
-    system: System,
-    epsilons: Sequence[Fraction] = EPSILONS,
-    count: int = INITIAL_STATES,
-    *,
-    fastest: float = 0.4,
-    turns: float = TURNS,
-    seed: int = 1,
-) -> list[Summary]:
-    """Summarise, for each epsilon, the transients of the same `count` random initial conditions.
+def random_impacts(count: int) -> list[tuple[float, float]]:
+    """Return phases, uniform on the circle, and relative speeds, uniform up to `FASTEST`."""
+    generator = random.Random(1)
+    return [(generator.uniform(0, math.tau), generator.uniform(0, FASTEST)) for _ in range(count)]
 
-    A state is an impact: its phase uniform on the circle, its relative speed before the impact
-    uniform on [0, fastest].
-    """
-    generator = random.Random(seed)
-    states = [(generator.uniform(0, math.tau), generator.uniform(0, fastest)) for _ in range(count)]
-    phases, speeds = (np.tile(each, len(epsilons)) for each in zip(*states, strict=True))
-    every = np.repeat([float(epsilon) for epsilon in epsilons], count)
-    ends = until_rest(system, every, phases, speeds, turns)
+
+def transients(system: System) -> list[Summary]:
+    """Summarise, for each of some epsilon, the transients of the same random initial conditions."""
+    states = zip(*random_impacts(INITIAL_STATES), strict=True)
+    phases, speeds = (np.tile(each, len(EPSILONS)) for each in states)
+    every = np.repeat([float(epsilon) for epsilon in EPSILONS], INITIAL_STATES)
+    rows = (each.reshape(-1, INITIAL_STATES) for each in until_rest(system, every, phases, speeds))
     return [
         Summary(str(float(epsilon)), *(float(x) for x in (rests.mean(), last.mean(), median(last))))
-        for epsilon, rests, last in zip(
-            epsilons, *(each.reshape(-1, count) for each in ends), strict=True
-        )
+        for epsilon, rests, last in zip(EPSILONS, *rows, strict=True)
     ]

@@ -14,7 +14,7 @@ from itertools import pairwise
 
 from proofs.motion.simulate import marched
 from proofs.motion.system import System
-from proofs.trusted.equations import launch, launch_acceleration, slope
+from proofs.trusted.equations import launch_acceleration, slope
 
 _LEVEL = 1e-13  # of a gap that counts as 0
 _Seen = tuple[float, int | None]  # a phase, and the window of its first impact
@@ -55,7 +55,7 @@ class Candidates:
     def impact(self, phase: float) -> Candidate | None:
         """Return about where the first impact is, None if there is none."""
         eta, nu = float(self.system.eta), float(self.system.nu)
-        start = launch(-1, eta, nu, phase)
+        start = self.system.launched(phase)
         amplitude = math.hypot(1 + start.lift, start.rate / eta)
         acceleration = launch_acceleration(start)
         if acceleration <= 0 or amplitude <= 1 + nu:

@@ -12,13 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from intervals import Undecided
-from proofs.motion.many import float_gap, next_impacts
+from proofs.motion.many import next_impacts
 from proofs.plane.settling import settles
 from proofs.plane.steps import Steps, corners
 from proofs.search.orbits import FALLS, RISES, Seen
 from proofs.search.portrait import continues
 from proofs.search.shifts import Piece, expanding, families, symbols, with_spare
 from proofs.trusted.certificate import texts
+from proofs.trusted.equations import clock, gap, launch
 from proofs.trusted.flights import lifted
 from proofs.trusted.numbers import Range
 from proofs.trusted.parameters import Place
@@ -87,7 +88,7 @@ def _holds(box: Place, sets: Sets) -> bool:
         sides = []
         for end in map(float, phases):
             times = target + math.tau * turns - end
-            below, above = float_gap(box.side, etas, nus, end, times).T
+            below, above = gap(launch(box.side, etas, nus, end), clock(etas, times)).T
             sides.append(-int((below < 0).all()) + int((above > 0).all()))
         if sorted(sides) != [-1, 1]:
             return False
@@ -159,7 +160,7 @@ def _covering(box: Place, sets: Sets) -> Steps:
             low, high = lifted((target[0] - phase, target[1] - phase), turns, BITS)
             early = min(low // _UNIT * _UNIT, end)
             late = max(-(-high // _UNIT) * _UNIT, begin)
-            is_below = float_gap(box.side, eta, nu, float(phase), float(early)) < 0
+            is_below = gap(launch(box.side, eta, nu, float(phase)), clock(eta, float(early))) < 0
             time = (begin, early) if is_below else (late, end)
             images.append({"phase": str(phase), "time": texts(time)})
     graph = {"states": [texts(target)], "weights": ["1"], "growth": str(len(names))}

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 from markupsafe import Markup
 
-from proofs.plane import overlay, picture, summary
+from proofs.plane import picture, summary
 from proofs.plane.picture import Shown
 from proofs.plane.store import LEAVES, SAMPLE, Row, Store, quarters
 from proofs.report.atlases import about, areas
@@ -204,7 +204,7 @@ def page(store: Store, shown: Shown) -> str:
         styles=picture.STROKES,
         meetings=[_in_map(region, place) for place in over.meetings],
         meet=picture.MEETINGS,
-        periods=overlay.PERIODS,
+        periods=picture.PERIODS,
         sample=SAMPLE,
         side=SIDE,
         data=Markup(_json({**leaves, "names": picture.labels(region)})),
@@ -247,6 +247,6 @@ def _in_map(region: Region, place: tuple[float, float]) -> tuple[str, str]:
     return f"{x:.1f}", f"{SIDE - y:.1f}"
 
 
-def _stroke(region: Region, line: overlay.Line) -> Stroke:
+def _stroke(region: Region, line: picture.Line) -> Stroke:
     points = " ".join(",".join(_in_map(region, place)) for place in line.points)
     return Stroke(line.name, line.n, points, _in_map(region, picture.named(region, line)))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
 from itertools import islice
@@ -13,13 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from intervals import Undecided
-from proofs.motion.many import float_gap, next_impacts, separation_phases
+from proofs.motion.many import next_impacts, separation_phases
 from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
 from proofs.motion.witness import Flights
 from proofs.plane.steps import Steps, bracket, corners, times_for
 from proofs.trusted.certificate import texts
-from proofs.trusted.equations import launch, launch_acceleration
+from proofs.trusted.equations import clock, gap, launch, launch_acceleration
 from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.differential import BITS, sharp_values
@@ -31,7 +31,7 @@ from proofs.trusted.parameters import Place
 
 Floats = NDArray[np.float64]
 _FARTHEST = 70.0
-_SOON = 3 / 7  # eta at most, for rule `settles`
+_SOON = 3 / 7  # eta at most, where all masses seem to stick
 _SOONER = 7  # than two turns
 _PLACES = 6  # decimals of phases
 _ROOM = Fraction(1, 10**5)  # around phases that are seen
@@ -108,25 +108,24 @@ def _sticks_at_centre(box: Place) -> bool:
     for _ in range(_MOST_IMPACTS):
         impact = next_impact(system, phase, _FARTHEST)
         if impact is None:
-            start = launch(system.side, float(system.eta), float(system.nu), phase)
-            return bool(launch_acceleration(start) <= 0)
+            return bool(launch_acceleration(system.launched(phase)) <= 0)
         phase = impact.phase
     return False
 
 
 def rests(box: Place) -> Steps:
-    """Return the steps for rule `settles`, the mass being at rest."""
+    """Return the steps where the mass is at rest."""
     made = Steps(box)
     try:
         AtRest(box)
     except Unproved as failure:
         raise Undecided(str(failure)) from None
-    made.add("settles", {"separation": None})
+    made.add("sticking-motion", _witness(None))
     return made
 
 
 def settles(box: Place) -> Steps:
-    """Return the steps for rule `settles`; Undecided where motions seem to go on."""
+    """Return the steps where all motions rest or stick; Undecided where they seem to go on."""
     with suppress(Undecided):
         return rests(box)
     if box.nu[0] < 0 or box.eta[1] > _SOON:
@@ -137,8 +136,23 @@ def settles(box: Place) -> Steps:
     later = last > float(_separations(box).min()) or float(arrival[1]) - last > _SOONER
     if early is not None or later:
         raise Undecided("the flight from the separation is not seen to end soon on the arc")
-    made.add("settles", {"separation": name})
+    made.add("sticking-motion", _witness(name))
     return made
+
+
+def _witness(
+    separation: str | None,
+    cells: Sequence[Cell] = (),
+    beyond: Cell | None = None,
+    landing: str | None = None,
+) -> dict[str, Any]:
+    """Write what the rule `sticking-motion` reads."""
+    return {
+        "separation": separation,
+        "cells": [cell.witness for cell in cells],
+        "beyond": beyond and beyond.witness,
+        "landing": landing,
+    }
 
 
 # -- motions that stick ----------------------------------------------------------------------------
@@ -184,13 +198,7 @@ def _returning(box: Place, up_to: float | None) -> tuple[Steps, float | None]:
     if early is not None:
         cuts = _rounded(early, float(_start(box).max()) + after + _AFTER)
         landing = made.add("lands", {"separation": name, "cuts": texts(cuts), "turns": "0"})
-    witness = {
-        "separation": name,
-        "cells": [cell.witness for cell in cells],
-        "beyond": beyond and beyond.witness,
-        "landing": landing,
-    }
-    made.add("sticking-motion", witness)
+    made.add("sticking-motion", _witness(name, cells, beyond, landing))
     return made, None
 
 
@@ -204,7 +212,7 @@ def _target(box: Place, low: float, high: float) -> tuple[float | None, float] |
     low, high = low - math.tau * turns, high - math.tau * turns
     if low > float(start.max()):
         return None, high
-    heights = float_gap(box.side, etas, nus, low, seen - low)
+    heights = gap(launch(box.side, etas, nus, low), clock(etas, seen - low))
     if low > 0 and (etas * (seen - low)).max() < _SHORT and (heights < 0).all():
         return low, high
     return None

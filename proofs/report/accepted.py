@@ -13,6 +13,8 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from proofs.trusted.files import digest, render
+
 THEORY = Path(__file__).parents[1] / "formal" / "theory"
 RECORD = THEORY.parent / "accepted.json"
 
@@ -40,12 +42,7 @@ def recorded(file: str, source: str, claims: Mapping[str, list[str]], record: Pa
     theory = digest_of_theory()
     entry = {"certificate": digest(source), "theory": theory, "claims": claims}
     kept = {name: each for name, each in _entries(record).items() if each["theory"] == theory}
-    return json.dumps(dict(sorted({**kept, file: entry}.items())), indent=1) + "\n"
-
-
-def digest(text: str) -> str:
-    """Return the digest by which a certificate is known."""
-    return sha256(text.encode()).hexdigest()
+    return render(dict(sorted({**kept, file: entry}.items())))
 
 
 def digest_of_theory() -> str:

@@ -35,6 +35,7 @@ _NAME = re.compile(r"([A-Za-z]+?)_?([0-9]+|_[A-Za-z0-9_]+)?")
 _BETWEEN = re.compile(r"(-?\d+\.\d+) \\le (.+?) \\le (-?\d+\.\d+)")
 _PLACES = 18  # of decimals in a formula, that it fits a narrow screen
 _SPELT = {"epsilon": r"\varepsilon", "lam": r"\lambda"}
+_ROW_OF_ONE = re.compile(r"<mrow>(<(m[ion]|mtext)[^<>]*>[^<]*</\2>)</mrow>")
 _SIGNED_NUMBER = re.compile(r"(<m\w+[^>]*>[(\[=,∈≤]</m\w+>(?:<mrow>)?)<mo>−</mo>")  # no difference
 _FUNCTIONS = (r"\sin", r"\cos", r"\log", r"\exp", r"\sqrt", r"\arctan", r"\partial")
 
@@ -165,4 +166,5 @@ def mathml(formula: str, display: str = "inline") -> str:
         text = text.replace(spare, "")
     text = text.replace(' fence="true"', "").replace(' stretchy="true"', "")
     text = re.sub(r'<mo stretchy="false">([()\[\]])</mo>', r"<mtext>\1</mtext>", text)
-    return _SIGNED_NUMBER.sub(r'\1<mo form="prefix">−</mo>', text)
+    text = _SIGNED_NUMBER.sub(r'\1<mo form="prefix">−</mo>', text)
+    return _ROW_OF_ONE.sub(r"\1", text)

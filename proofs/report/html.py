@@ -16,15 +16,18 @@ from proofs.report import graph
 from proofs.report.atlases import Atlas
 from proofs.report.checker import Checker
 from proofs.report.dependencies import RESTS
-from proofs.report.differences import marked
 from proofs.report.figures.figure import Figure
 from proofs.report.findings import Finding, Findings, Statement, Step
 from proofs.report.formulas import lines, mathml
-from proofs.report.layout import Block, block, enclosure, sentences
-from proofs.report.names import (
+from proofs.report.layout import (
     DEFINITIONS,
     MEANINGS,
     PAPER_TITLE,
+    Block,
+    block,
+    enclosure,
+    marked,
+    sentences,
     summary,
     tally,
     verdict_name,
@@ -39,6 +42,7 @@ from proofs.trusted.verdicts import Verdict, told
 POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; script-src 'unsafe-inline'"
 _POLICY_OF_CHECKER = f"{POLICY} 'unsafe-eval' blob:; worker-src blob:"
 _TEMPLATES = Path(__file__).parent / "templates"
+_TITLE = re.compile("<title>.*</title>\\n")  # of a drawing; in the page it stands beside
 _LONGEST = 1200  # characters of a formula that is set; longer ones are shown as they are read
 
 
@@ -55,7 +59,8 @@ def page(
     """
     return rendered(
         "page.html",
-        view=View(findings, figures, drawn),
+        view=View(findings, figures),
+        drawn={name: _TITLE.sub("", text, count=1) for name, text in drawn.items()},
         RESTS=RESTS,
         title=PAPER_TITLE,
         policy=_POLICY_OF_CHECKER if checker else POLICY,
@@ -86,6 +91,9 @@ def rendered(template: str, **values: Any) -> str:
         MEANINGS=MEANINGS,
         DEFINITIONS=DEFINITIONS,
         verdict_name=verdict_name,
+        quantity_name=quantity_name,
+        enclosure=enclosure,
+        floor_text=floor_text,
     )
     environment.filters.update(
         typeset=lambda text: Markup(html(text)), formula=formula, coded=_coded
@@ -116,22 +124,11 @@ class View:
 
     findings: Findings
     figures: Sequence[Figure]
-    drawn: Mapping[str, str]
 
     @cached_property
     def tally(self) -> list[tuple[Verdict, int]]:
         """How many of the paper's claims have which verdict."""
         return tally(self.findings)
-
-    @property
-    def own(self) -> int:
-        """How many claims are the project's."""
-        return sum(claim.row.own for claim in self.findings.claims)
-
-    @property
-    def in_coq(self) -> int:
-        """How many claims Coq has decided."""
-        return sum(claim.coq is not None for claim in self.findings.claims)
 
     @property
     def headline(self) -> Statement | None:
@@ -163,15 +160,6 @@ class View:
     def words(self, claim: Finding) -> Markup:
         """Return the paper's own words, a formula between dollars as one."""
         return _alternating(claim.row.words, "$", mathml, html)
-
-    def more(self, claim: Finding) -> list[Conclusion]:
-        """Return what is proved beside a true claim, beyond what decides it."""
-        return [each for each in claim.decision.corrected if each not in claim.decision.because]
-
-    def count(self, claim: Finding) -> str:
-        """Return how many steps the proof has."""
-        number = len(claim.steps)
-        return f"{number} step{'s' if number > 1 else ''}"
 
     def blocks(self, statement: Statement, printed: str = "") -> list[Block]:
         """Return a statement sentence by sentence, values marked that are printed otherwise."""
@@ -208,10 +196,6 @@ class View:
         at = self.first[claim.file, step.name]
         return "" if at == claim.id else at
 
-    def step_id(self, claim: Finding, step: Step) -> str:
-        """Return the anchor of a step."""
-        return f"{claim.file.removesuffix('.json')}-{step.name}"
-
     def step_text(self, step: Step) -> Markup:
         """Return what a step concludes: a link to where that stands, a formula, or a sentence."""
         stands = self.findings.statements.get(told([step.conclusion]))
@@ -232,23 +216,6 @@ class View:
             if each.id in RESTS and claim.id in RESTS[each.id].on
         ]
 
-    def figures_of(self, claim: Finding) -> list[Figure]:
-        """Return the figures that belong to a claim."""
-        return [figure for figure in self.figures if claim.id in figure.claims]
-
-    def quantity(self, name: str) -> Markup:
-        """Return the name of a number."""
-        return Markup(html(quantity_name(name)))
-
-    def enclosure(self, bounds: tuple[str, str]) -> Markup:
-        """Return two bounds: the digits that they share, then those that they do not."""
-        return Markup(html(enclosure(*bounds)))
-
-    def margin(self, claim: Finding) -> str:
-        """Return by how much a printed bound holds, rounded down."""
-        margin = claim.decision.margin
-        return "" if margin is None else f"at least {floor_text(margin)}"
-
     @cached_property
     def rules(self) -> list[tuple[str, list[str]]]:
         """The rules that the proofs use, with their theorems."""
@@ -264,18 +231,6 @@ class View:
             if self.headline is not None and self.headline.claim in figure.claims:
                 return figure
         return None
-
-    def figures_in(self, section: str) -> list[Figure]:
-        """Return the figures of a section, but for the one on the first screen."""
-        return [x for x in self.figures if x.section == section and x != self.main]
-
-    def chips(self, figure: Figure) -> list[Finding]:
-        """Return the claims of a figure."""
-        return [claim for claim in self.findings.claims if claim.id in figure.claims]
-
-    def picture(self, figure: Figure) -> Markup:
-        """Return a figure as SVG; its title stands beside it."""
-        return Markup(re.sub("<title>.*</title>\n", "", self.drawn[figure.name], count=1))
 
 
 def formula(conclusion: Conclusion) -> Markup:

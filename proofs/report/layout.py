@@ -1,15 +1,65 @@
-"""How texts are laid out on the page: sentences, enumerations, enclosures."""
+"""How texts are laid out on the page: sentences, enumerations, enclosures, what is marked, names.
+
+Marked is where a printed claim and a proved theorem speak of the same symbol and give other values.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from types import MappingProxyType
+from typing import TYPE_CHECKING, NamedTuple
 
-from proofs.report.differences import marked
+from proofs.report.findings import Findings
+from proofs.report.typeset import html
 from proofs.trusted.numbers import ceil_text, floor_text
+from proofs.trusted.verdicts import Verdict
+
+_NAME = r"[A-Za-z]+[0-9]*(?:_[A-Za-z0-9]+)?'?"
+_NUMBER = r"-?[0-9]+(?:[./][0-9]+)*"
+_RANGE = r"\[[^\]]*\]"
+_ROOT = r"sqrt\((?:[^()]|\((?:[^()]|\([^()]*\))*\))*\)"
+_VALUE = rf"{_RANGE}(?: x {_RANGE})?|{_ROOT}|{_NUMBER}"
+_FACTS = (
+    re.compile(rf"(?<![\w_^])(?P<name>{_NAME}) (?P<sign>=|<=|>=) (?P<value>{_VALUE})(?![\w/])"),
+    re.compile(rf"(?<![\w/.])(?P<value>{_NUMBER}) (?P<sign><=) (?P<name>{_NAME})(?![\w_(])"),
+)
+
+
+class Fact(NamedTuple):
+    """A symbol, a sign, and the value beyond it, with the place of the value in its text."""
+
+    name: str
+    sign: str
+    value: str
+    start: int
+    end: int
+
+
+def facts(text: str) -> Iterator[Fact]:
+    """Yield what a text says about symbols: x = 1, x <= 2, 0 <= x, which is x >= 0."""
+    for turned, pattern in enumerate(_FACTS):
+        for match in pattern.finditer(text):
+            sign = ">=" if turned else match["sign"]
+            yield Fact(match["name"], sign, match["value"], *match.span("value"))
+
+
+def marked(text: str, other: str) -> str:
+    """Return a text as HTML, the values marked that the other text gives differently."""
+    others: dict[tuple[str, str], set[str]] = {}
+    for fact in facts(other):
+        others.setdefault(fact[:2], set()).add(fact.value)
+    parts, done = [], 0
+    for fact in sorted(facts(text), key=lambda fact: fact.start):
+        values = others.get(fact[:2])
+        if values and fact.value not in values and fact.start >= done:
+            parts += [html(text[done : fact.start]), f"<mark>{html(fact.value)}</mark>"]
+            done = fact.end
+    return "".join([*parts, html(text[done:])])
+
 
 if TYPE_CHECKING:
     from markupsafe import Markup
@@ -93,3 +143,52 @@ def _tenths(count: int) -> str:
 def _padded(text: str, places: int) -> str:
     integer, _, digits = text.partition(".")
     return f"{integer}.{digits.ljust(places, '0')}" if places else integer
+
+
+PAPER_TITLE = (
+    "On the Dynamics of a Harmonic Oscillator Undergoing Impacts with a Vibrating Platform"
+)
+MEANINGS = MappingProxyType(
+    {
+        Verdict.VERIFIED: "true as printed",
+        Verdict.REFUTED: "false as printed",
+        Verdict.CONDITIONAL: "true under conditions",
+        Verdict.UNDECIDED: "not decided",
+        Verdict.SIMULATED: "observed, not proved",
+    }
+)
+DEFINITIONS = MappingProxyType(
+    {
+        Verdict.VERIFIED: "Proved as printed, misprints of the scan aside.",
+        Verdict.REFUTED: "Proved false as printed, with an exact witness; beside it stands the "
+        "strongest true statement nearby that could be proved.",
+        Verdict.CONDITIONAL: "True exactly under conditions that the paper leaves out; they are "
+        "stated and proved.",
+        Verdict.UNDECIDED: "Neither proved nor refuted; what is missing is said.",
+        Verdict.SIMULATED: "An observation, not mathematics: reproduced by simulation, and never "
+        "called a proof.",
+    }
+)
+
+
+def verdict_name(verdict: Verdict) -> str:
+    """Return a verdict as a word."""
+    return verdict.value.capitalize()
+
+
+def summary(findings: Findings) -> str:
+    """Return in two sentences what the report is about and what it does."""
+    count = sum(not claim.row.own for claim in findings.claims)
+    return (
+        "A mass on a spring bounces on a vibrating table. Is it chaotic, as the paper says? Here "
+        f"are its {count} claims, one by one: what is true, what is not, and what is true instead, "
+        "with proofs that a small independent program checks. The paper was received on 16 July "
+        "1999 and accepted on 22 August 2000; the scan that was read names neither authors nor "
+        "journal."
+    )
+
+
+def tally(findings: Findings) -> list[tuple[Verdict, int]]:
+    """Return how many of the paper's claims have which verdict."""
+    counts = Counter(claim.verdict for claim in findings.claims if not claim.row.own)
+    return [(verdict, counts[verdict]) for verdict in Verdict if counts[verdict]]

@@ -8,8 +8,8 @@ from proofs.report.dependencies import RESTS
 from proofs.report.figures.figure import Figure
 from proofs.report.findings import Finding, Findings, Statement
 from proofs.report.graph import MARKS, falling
-from proofs.report.markup import table
-from proofs.report.names import DEFINITIONS, PAPER_TITLE, summary, tally, verdict_name
+from proofs.report.layout import DEFINITIONS, PAPER_TITLE, summary, tally, verdict_name
+from proofs.report.page import table
 from proofs.report.typeset import markdown
 from proofs.trusted.verdicts import Verdict
 

@@ -38,7 +38,7 @@ _AROUND = Fraction(1, 10**6)  # of states around the first impact
 @proving
 def prove(request: Request, effort: int = EFFORT, seconds: float | Fraction = math.inf) -> Evidence:
     """Prove what the claims asked for rest on, as far as it goes."""
-    prover = ReboundProver(request.of, request.prover())
+    prover = ReboundProver(request.of, request.digits)
     budget = Budget(request.of.eta, effort, seconds)
     evidence = Evidence(prover.steps, {claim: [] for claim in request.claims})
     if not too_fast(request.of, evidence, _SEARCHES) and request.of.epsilon is not None:
@@ -51,7 +51,7 @@ def prove(request: Request, effort: int = EFFORT, seconds: float | Fraction = ma
 
 def _chaos(prover: ReboundProver, budget: Budget) -> Proof:
     """Prove a horseshoe on rectangles that are found (rule horseshoe)."""
-    system, of = prover.plain.system, prover.of
+    system, of = prover.system, prover.of
     epsilon = of.epsilon or Fraction(0)
     at = Place.restituting(of.eta, of.nu, epsilon)
     seen = symbols(pieces(system, budget.grid, budget.farthest, budget.check))
@@ -62,7 +62,7 @@ def _chaos(prover: ReboundProver, budget: Budget) -> Proof:
         budget.check()
         prover.of = replace(of, velocities=velocities)
         try:
-            name = prover.horseshoe(at, sets)
+            name = prover.crossing(at, sets)
         except Unproved as error:
             failure = str(error)
         else:
@@ -103,9 +103,9 @@ def _stable(prover: ReboundProver, budget: Budget) -> Proof:
 
 def _chattering(prover: ReboundProver, epsilon: Fraction) -> tuple[str, Conclusion]:
     """Follow the motion from the separation until bounces end in rest (rule superstable-motion)."""
-    system = prover.plain.system
+    system = prover.system
     at = Place.restituting(system.eta, system.nu, epsilon)
-    separation, arc = prove_arc(prover.plain)
+    separation, arc = prove_arc(prover)
     pushing, first = Pushing(arc.at, arc.phase[0]), around(arc, _AROUND)
     box, impacts = list(first), list[str]()
     while len(impacts) < _MOST_IMPACTS:
@@ -114,10 +114,9 @@ def _chattering(prover: ReboundProver, epsilon: Fraction) -> tuple[str, Conclusi
         box = around_image(image)
         with suppress(*FAILED):
             state = landed(arc, (image.values[0], image.values[1]), BITS)
-            cell = pushing.settle((epsilon, epsilon), *state)
+            cell, _ = pushing.settle((epsilon, epsilon), *state)
             made = witness(separation, first, [cell], impacts)
-            name = prover.derive("superstable-motion", **made)
-            return name, prover.known[name]
+            return prover.derive("superstable-motion", made)
     raise Undecided(f"{_MOST_IMPACTS} impacts after the separation the mass has not come to rest")
 
 
@@ -125,6 +124,6 @@ _SEARCHES: Mapping[str, tuple[str, Callable[[ReboundProver, Budget], Proof]]] = 
     {
         "X6": ("rectangles", _chaos),
         "X7": ("stable motions", _stable),
-        "X9": ("motions that only touch", lambda prover, _: [prove_longest(prover.plain)]),
+        "X9": ("motions that only touch", lambda prover, _: [prove_longest(prover)]),
     }
 )

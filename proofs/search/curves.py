@@ -13,18 +13,17 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any, NamedTuple
 
-from intervals import Interval, Undecided
+from intervals import Undecided
 from proofs.methods.arcs import follow, thin
-from proofs.methods.formulas import enclosed
+from proofs.methods.derivation import Derivation
 from proofs.methods.lemmas import krawczyk, newton, require_zero, written
 from proofs.motion.witness import touching_once
 from proofs.search.derivations import Steps
 from proofs.search.evidence import FAILED, Evidence
 from proofs.search.request import Request, proving
 from proofs.trusted.certificate import texts
-from proofs.trusted.kernel.arcs import Arc
-from proofs.trusted.kernel.conclusion import Conclusion
-from proofs.trusted.kernel.enclose import Box, centre_of
+from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.enclose import centre_of
 from proofs.trusted.kernel.zeros import Piece
 from proofs.trusted.numbers import Range, hull, show
 from proofs.trusted.paper.beyond.curves import curves, sticking
@@ -34,13 +33,11 @@ from proofs.trusted.paper.beyond.grazing import (
     FOLD,
     TIME,
     GrazingCurve,
-    P,
     gap_along,
-    nu_squared,
     ratio,
     touch,
 )
-from proofs.trusted.paper.beyond.meetings import Meeting, level
+from proofs.trusted.paper.beyond.meetings import Meeting, sign
 
 _MOST = 2  # table periods
 _WIDEST = 2  # eta
@@ -116,15 +113,10 @@ class Curves:
     """Collects the steps of this group, each with its conclusion."""
 
     epsilon: Fraction
-    steps: dict[str, dict[str, Any]]
-    traced: list[tuple[str, Conclusion]] = field(default_factory=list)
-    meetings: list[tuple[str, Conclusion]] = field(default_factory=list)
+    derivation: Derivation = field(default_factory=lambda: Derivation({}))
+    traced: list[tuple[str, GrazingCurve]] = field(default_factory=list)
+    meetings: list[tuple[str, Meeting]] = field(default_factory=list)
     failures: list[str] = field(default_factory=list)
-
-    def _add(self, rule: str, **witness: Any) -> str:
-        name = f"{rule}-{1 + sum(step['rule'] == rule for step in self.steps.values())}"
-        self.steps[name] = {"rule": rule, "witness": witness}
-        return name
 
     def grazing(self, n: int, run: Sequence[Seen]) -> None:
         """Follow a curve, and find where it meets others."""
@@ -149,20 +141,15 @@ class Curves:
 
         start = newton(formula, run[0].guess, axis=ETA)[0]
         traced = follow(formula, ETA, start, run[-1].eta, step=_STEP, most=_PIECES, accept=accept)
-        pieces = tuple(each.piece for each in traced)
-        points = [thin(formula, ETA, guess, _PLACES) for guess in _guesses(pieces)]
-        boxes = tuple(box for box, _ in points)
-        arc = Arc(formula, ETA, pieces, boxes)
-        nus = tuple(self._amplitude(n, side, box) for box in boxes)
-        curve = GrazingCurve(n, epsilon, side, arc, nus)
-        name = self._add(
+        pieces = [each.piece for each in traced]
+        points = [thin(formula, ETA, guess, _PLACES)[1] for guess in _guesses(pieces)]
+        name, curve = self._derived(
             "grazing-curve",
             n=str(n),
             epsilon=str(epsilon),
             pieces=[each.witness for each in traced],
-            points=[witness for _, witness in points],
+            points=points,
             times=[texts(times[piece]) for piece in pieces],
-            amplitudes=[texts(nu) for nu in nus],
         )
         self.traced.append((name, curve))
         for other, point in crossings.items():
@@ -171,13 +158,9 @@ class Curves:
             except FAILED as failure:
                 self.failures.append(f"{other} near eta = {float(point[ETA]):.6g}: {failure}")
 
-    def _amplitude(self, n: int, side: int, box: Box) -> Range:
-        """Enclose nu in decimals."""
-        eta, p = (Interval(*box[k], precision=8 * _PLACES) for k in (ETA, P))
-        pi = Interval.pi(precision=8 * _PLACES)
-        nu = nu_squared(n, ratio(self.epsilon), (eta, p), pi).sqrt() * side
-        unit = Fraction(1, 10 ** (_PLACES - 1))
-        return nu.inf // unit * unit, -(-nu.sup // unit) * unit
+    def _derived(self, rule: str, **witness: Any) -> tuple[str, Any]:
+        name = self.derivation.add(rule, witness)
+        return name, self.derivation.known[name]
 
     def _meeting(
         self, name: str, curve: GrazingCurve, other: str, near: Sequence[Fraction]
@@ -185,13 +168,13 @@ class Curves:
         """Prove that a curve meets another one at one point."""
         formula = touch(curve.n, self.epsilon, other)
         hulls = [piece.hull(ETA) for piece in curve.arc.pieces]
-        signs = [_sign(curve, other, piece) for piece in curve.arc.pieces]
-        open_ones = [k for k, sign in enumerate(signs) if sign == 0]
+        pieces = enumerate(curve.arc.pieces)
+        open_ones = [k for k, piece in pieces if not _has_sign(curve, other, piece)]
         if not open_ones:
             raise Undecided("the curves do not meet")
         nearby = hulls[max(open_ones[0] - 1, 0) : open_ones[-1] + 2]
         around = tuple(hull(sides) for sides in zip(*nearby, strict=True))
-        box, witness = thin(formula, None, near, _PLACES)
+        _, witness = thin(formula, None, near, _PLACES)
         matrix = newton(formula, near)[1]
         for _ in range(_WIDENINGS):  # what has one zero may have it in a wider box alone
             image = krawczyk(formula, around, matrix)
@@ -200,23 +183,20 @@ class Curves:
                 for side, each in zip(around, image.values(), strict=True)
             )
         require_zero(formula, around, matrix)
-        nu = self._amplitude(curve.n, curve.side, box)
-        meeting = Meeting(curve, other, box, nu, signs[0] < 0)
-        step = self._add(
+        met = self._derived(
             "grazing-meets",
             curve=name,
             other=other,
             around={"box": written(around), "matrix": [texts(row) for row in matrix]},
             box=witness,
-            amplitude=texts(nu),
         )
-        self.meetings.append((step, meeting))
+        self.meetings.append(met)
 
 
-def _sign(curve: GrazingCurve, other: str, piece: Piece) -> int:
-    formula = level(curve, other, piece)
-    (value,) = enclosed(formula, (piece.box[ETA], piece.box[P]))
-    return 1 if value.inf > 0 else -1 if value.sup < 0 else 0
+def _has_sign(curve: GrazingCurve, other: str, piece: Piece) -> bool:
+    with suppress(Unproved):
+        return bool(sign(curve, other, piece))
+    return False
 
 
 def _wider(side: Range) -> Range:
@@ -247,12 +227,13 @@ def prove(request: Request) -> Evidence:
             proved = [formulas.prove(need) for need in theorem.needs]
             evidence.proofs[claim] = [each for each in proved if each is not None]
     if request.asks("C2", "C3"):
-        followed = Curves(request.of.epsilon or Fraction(0), formulas.steps)
+        derivation = Derivation({}, formulas.steps)
+        followed = Curves(request.of.epsilon or Fraction(0), derivation)
         for n in range(1, _MOST + 1):
             for run in seen_curves(n, followed.epsilon):
                 request.tell(f"grazing for n = {n}, eta from {show(run[0].eta)}")
                 with suppress(*FAILED):
                     followed.grazing(n, run)
-        evidence.proofs |= {"C2": followed.traced, "C3": followed.meetings}
+        evidence.proofs |= {"C2": [*followed.traced], "C3": [*followed.meetings]}
         evidence.notes["C3"] = "; ".join(followed.failures)
     return evidence

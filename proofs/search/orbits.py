@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
-from proofs.trusted.equations import launch, launch_acceleration
+from proofs.trusted.equations import launch_acceleration
 
 LONGEST = 60  # period
 NEAR = 1e-7  # of an orbit to itself, in phase
@@ -43,8 +43,7 @@ def look(system: System, phase: float, farthest: float) -> Seen:
     if impact is not None:
         slope = impact.slope
         return Seen(phase, RISES if slope > 0 else FALLS, impact.lifted, slope)
-    start = launch(system.side, float(system.eta), float(system.nu), phase)
-    return Seen(phase, STICKS if launch_acceleration(start) <= 0 else FLIES)
+    return Seen(phase, STICKS if launch_acceleration(system.launched(phase)) <= 0 else FLIES)
 
 
 def follow(system: System, phase: float, farthest: float, most: int) -> Iterator[Seen]:

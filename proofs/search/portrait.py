@@ -6,7 +6,6 @@ Candidates only, never evidence: what is proved is said by conclusions, elsewher
 from __future__ import annotations
 
 import math
-import random
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -23,18 +22,14 @@ from proofs.search.orbits import (
     STICKS,
     TOUCHES,
     Seen,
-    follow,
     look,
-    multiplier,
-    stable_cycle,
 )
 
 _NARROWEST = 1e-9  # to which the ends of branches are located
 _MOST_ENDS = 400  # that are located; branches are infinitely many where flights are ever longer
 _STEEP, _FLAT = 30.0, 1e-3  # |f'| at an end where f' is unbounded, or 0
 _AFTER = 1e-8  # the separation: the derivative of the next impact's phase is 0 there
-_ROUNDS = 5  # of impacts, until orbits with restitution have come to their ends
-_SLOW = 0.9  # |multiplier| above which it is said
+_ROUNDS = 5  # of impacts, until orbits have come to their ends
 
 
 Check = Callable[[], None]
@@ -138,56 +133,12 @@ def _counted(ends: Sequence[tuple[str, int]]) -> list[Fate]:
 
 
 def fates(
-    system: System, starts: int, impacts: int, farthest: float, check: Check = lambda: None
-) -> list[Fate]:
-    """Follow orbits of phases all around the circle to their ends, and count these.
-
-    A mass that sticks leaves at the separation phase: all that stick go on as one motion.
-    """
-
-    def end(phase: float) -> tuple[str, int]:
-        for count, seen in enumerate(follow(system, phase, farthest, impacts)):
-            check()
-            if not seen.goes_on:
-                return seen.kind, count
-        cycle = stable_cycle(system, seen.image % math.tau, farthest)
-        return _cycle_name(cycle), impacts
-
-    ends = [end(math.tau * (k + 0.5) / starts) for k in range(starts)]
-    names = _NAMES | {STICKS: _after_rest(system, farthest, lambda phase, _: end(phase)[0])}
-    return _counted([(names.get(name, name), until) for name, until in ends])
-
-
-def _after_rest(system: System, farthest: float, end: Callable[[float, float], str]) -> str:
-    """Return what a mass that sticks comes to.
-
-    end: of a motion from an impact, given by phase and speed; STICKS where it sticks.
-    """
-    if system.sticking_arc != "some":
-        return _RESTS
-    phase = separation_phase(system) + _AFTER
-    landing = next_impact(system, phase, farthest)
-    name = FLIES if landing is None else end(landing.phase, landing.speed)
-    return _LEAVES if name == STICKS else _NAMES.get(name, name)
-
-
-def _cycle_name(cycle: Sequence[Seen]) -> str:
-    """Say which stable orbit it is, and how slowly others come to it."""
-    if not cycle:
-        return _WANDERS
-    named = f"{_stable(len(cycle))} near {min(seen.phase for seen in cycle):.6f}"
-    slope = multiplier(cycle)
-    return f"{named}, slowly: its multiplier is {slope:.6f}" if abs(slope) > _SLOW else named
-
-
-def _stable(period: int) -> str:
-    return f"a stable orbit of period {period}"
-
-
-def rebounding_fates(
     system: System, epsilon: float, starts: int, impacts: int, check: Check = lambda: None
 ) -> list[Fate]:
-    """Follow motions with restitution from random impacts to their ends, and count these."""
+    """Follow motions from random impacts to their ends, and count these; epsilon: 0 if plastic.
+
+    A mass that sticks or rests leaves at the separation phase: all that do go on as one motion.
+    """
     from proofs.motion import transients
 
     kinds = {
@@ -206,11 +157,25 @@ def rebounding_fates(
         each = zip(motions.kinds.tolist(), motions.counts.tolist(), strict=True)
         return [(kinds.get(kind) or _stable(kind), count) for kind, count in each]
 
-    generator = random.Random(1)
-    states = [(generator.uniform(0, math.tau), generator.uniform(0, 0.4)) for _ in range(starts)]
-    rests = _after_rest(system, math.tau * TURNS, lambda *state: ends([state])[0][0])
-    names = _NAMES | {STICKS: rests}
-    return _counted([(names.get(name, name), until) for name, until in ends(states)])
+    names = _NAMES | {STICKS: _after_rest(system, lambda state: ends([state])[0][0])}
+    seen = ends(transients.random_impacts(starts))
+    return _counted([(names.get(name, name), until) for name, until in seen])
+
+
+def _after_rest(system: System, end: Callable[[tuple[float, float]], str]) -> str:
+    """Return what a mass that sticks comes to.
+
+    end: of a motion from an impact, given by phase and speed; STICKS where it sticks.
+    """
+    if system.sticking_arc != "some":
+        return _RESTS
+    landing = next_impact(system, separation_phase(system) + _AFTER, math.tau * TURNS)
+    name = FLIES if landing is None else end((landing.phase, landing.speed))
+    return _LEAVES if name == STICKS else _NAMES.get(name, name)
+
+
+def _stable(period: int) -> str:
+    return f"a stable orbit of period {period}"
 
 
 # -- in words --------------------------------------------------------------------------------------

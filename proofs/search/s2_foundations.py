@@ -6,18 +6,13 @@ witnesses; A1 also names phases of the parameters given that never impact again.
 
 from __future__ import annotations
 
-from typing import Any
+from contextlib import suppress
 
-from intervals import DomainError, Undecided
-from proofs.motion.system import System
-from proofs.motion.witness import HORIZON
 from proofs.search.derivations import prove_rows
-from proofs.search.evidence import Evidence, Proof
+from proofs.search.evidence import FAILED, Evidence, Proof, Steps
 from proofs.search.request import Request, proving
 from proofs.search.s34_circle import prove_longest
-from proofs.search.steps import Prover
 from proofs.trusted.paper import s2_foundations, s7_appendix
-from proofs.trusted.parameters import Parameters
 
 
 @proving
@@ -27,15 +22,13 @@ def prove(request: Request) -> Evidence:
     evidence = prove_rows(request, rows)
     if request.asks("A1"):
         request.tell("phases without a next impact")
-        evidence.proofs["A1"] += unending(request.of, evidence.steps)
+        evidence.proofs["A1"] += unending(request, evidence.steps)
     return evidence
 
 
-def unending(of: Parameters, steps: dict[str, dict[str, Any]]) -> Proof:
+def unending(request: Request, steps: Steps) -> Proof:
     """Prove that an interval of phases never impacts again, if one is found."""
-    if not -1 < of.nu < 0 < of.eta < 1:
-        return []
-    try:
-        return [prove_longest(Prover(System(of.eta, of.nu), 0, HORIZON, steps))]
-    except (Undecided, DomainError):
-        return []
+    if -1 < request.of.nu < 0 < request.of.eta < 1:
+        with suppress(*FAILED):
+            return [prove_longest(request.prover(steps))]
+    return []

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import replace
 from fractions import Fraction
 from itertools import islice, product
 
+from intervals.cover import cover, halves
+from proofs.methods.formulas import shares
 from proofs.search.s33_rectangles import (
     Sets,
     image_phases,
@@ -46,42 +46,26 @@ def over(prover: ReboundProver, box: Place, sets: Sets, attempts: int) -> list[s
     """Prove the horseshoe on rectangles for a box, in parts while it must be; or Unproved."""
     if not stays(box, prover.velocities, sets):
         raise Unproved("an image velocity leaves the rectangles")
+
+    def decide(part: Place) -> str | None:
+        if overshoot((*sets[0], *sets[1]), image_phases(part, prover.velocities)) <= 0:
+            raise Unproved("an edge falls short at a corner of the box")
+        with suppress(Unproved):
+            return prover.crossing(part, sets)
+        return None
+
+    def split(part: Place) -> list[Place]:
+        lengths = shares(part.sides, box.sides)
+        longest = lengths.index(max(lengths))
+        if not lengths[longest]:
+            raise Unproved("a point is not cut")
+        return [
+            Place(*(half if k == longest else side for k, side in enumerate(part.sides)))
+            for half in halves(part.sides[longest])
+        ]
+
     with prover.attempt():
-        return _covered(prover, box, sets, iter(range(attempts)))
-
-
-def _covered(prover: ReboundProver, box: Place, sets: Sets, attempts: Iterator[int]) -> list[str]:
-    if next(attempts, None) is None:
-        raise Unproved("the box is not proved in as many parts as are tried")
-    if overshoot((*sets[0], *sets[1]), image_phases(box, prover.velocities)) <= 0:
-        raise Unproved("an edge falls short at a corner of the box")
-    with suppress(Unproved):
-        return [prover.horseshoe(box, sets)]
-    halves = _halves(prover, box, sets)
-    return [name for half in halves for name in _covered(prover, half, sets, attempts)]
-
-
-def _halves(prover: ReboundProver, box: Place, sets: Sets) -> list[Place]:
-    """Cut a box across the side along which the images of the edges move most."""
-    ends = (*sets[0], *sets[1])
-    middle = _point(box, (0, 0, 0))
-    moves = []
-    for side in ("eta", "nu", "epsilon"):
-        low, high = getattr(box, side)
-        if low < high:
-            first, last = (
-                image_phases(replace(middle, **{side: (end, end)}), prover.velocities)
-                for end in (low, high)
-            )
-            pairs = [(first(end), last(end)) for end in ends]
-            move = sum(abs(a[0] - b[0]) if a and b else math.inf for a, b in pairs)
-            moves.append((move, side))
-    if not moves:
-        raise Unproved("a point is not cut")
-    side = max(moves)[1]
-    low, high = getattr(box, side)
-    centre = (low + high) / 2
-    return [replace(box, **{side: ends}) for ends in ((low, centre), (centre, high))]
+        return [name for _, name in cover([box], decide, split, limit=attempts)]
 
 
 def _point(box: Place, direction: tuple[int, ...], share: Fraction = Fraction(1)) -> Place:

@@ -3,21 +3,26 @@
 from __future__ import annotations
 
 import math
-import random
 from collections.abc import Iterator
 from contextlib import suppress
 from fractions import Fraction
 
 from intervals import Undecided
+from proofs.methods.formulas import inverse
 from proofs.motion.simulate import TURNS, landing
 from proofs.motion.system import System
 from proofs.search.evidence import FAILED
 from proofs.search.s33_steps import ReboundProver, function_of
 from proofs.trusted.certificate import texts
+from proofs.trusted.kernel.arithmetic import rational
+from proofs.trusted.kernel.covers import images
 from proofs.trusted.kernel.differential import Differential
 from proofs.trusted.kernel.enclose import Matrix, enclosed, point_box
+from proofs.trusted.kernel.parametric import moved
+from proofs.trusted.kernel.periodic import Closing, derivative, less_one
 from proofs.trusted.kernel.rates import size
-from proofs.trusted.kernel.stable import StableCycle, follow
+from proofs.trusted.kernel.stable import StableCycle, minus_one
+from proofs.trusted.kernel.zeros import Rows
 from proofs.trusted.numbers import TURN, Range
 from proofs.trusted.oscillator import Oscillator
 from proofs.trusted.parameters import Place
@@ -64,9 +69,9 @@ def prove_cycle(
     n is the period times `rounds`: more than one where F turns states around the orbit.
     """
     map_, count = Oscillator(at.sides), period * rounds
-    centre = enclosed(point_box(state), _BITS)
-    (*_, end), product = follow(map_, centre, count)
-    ((p, q), (r, s)), root = _sizes(product)
+    *points, end = images(map_, enclosed(point_box(state), _BITS), count + 1)
+    turns = round(float(end[0].range[0] - state[0]) / math.tau / rounds)
+    ((p, q), (r, s)), root = _sizes(derivative(map_, points))
     if root >= 1:
         raise Undecided("the orbit is not seen to contract")
     more = min(4.0, max(root, 1e-9) ** -0.5)
@@ -78,21 +83,29 @@ def prove_cycle(
             (more * r * x + (1 - more * p) * y) / across,
         )
 
-    away = [
-        more * float(max(high - x, x - low))
-        for x, (low, high) in zip(state, (side.range for side in end), strict=True)
-    ]
+    closing = Closing(map_, count, (rounds * turns,))
+    defect = moved(closing, points[0])
+    rows = [[rational(x, _BITS) for x in row] for row in minus_one(2)]
+    away = [more * float(size(defect.combined(row).range)) for row in rows]
     least, reach = box(1, 1), box(away[0], away[1])
     half = [rounded(_HALF * x / max(least) + y) for x, y in zip(least, reach, strict=True)]
     around = [texts((x - r, x + r)) for x, r in zip(state, half, strict=True)]
-    name = prover.derive(
-        "stable-cycle",
-        function=function_of(at),
-        box=around,
-        period=str(period),
-        rounds=str(rounds),
-    )
-    return name, prover.get(name, StableCycle)
+    matrix = minus_one(2) if rounds == 1 else _newton(derivative(map_, points[:period]))
+    orbit = {
+        "function": function_of(at),
+        "period": str(period),
+        "box": around,
+        "matrix": [[str(x) for x in row] for row in matrix],
+        "turns": [str(turns)],
+    }
+    return prover.derive("stable-cycle", {"orbit": orbit, "rounds": str(rounds)})
+
+
+def _newton(matrix: Matrix) -> Rows:
+    """Return about the inverse of D - 1."""
+    slopes = less_one(matrix)
+    middles = tuple(tuple(sum(x.range, Fraction(0)) / 2 for x in row) for row in slopes)
+    return [[Fraction(round(x * _GRID), _GRID) for x in row] for row in inverse(middles)]
 
 
 def seen_from(at: Place, state: State, period: int) -> tuple[State, float]:
@@ -132,11 +145,9 @@ def around_image(step: Differential) -> list[Range]:
 
 def _candidates(system: System, epsilon: float, tries: int) -> Iterator[list[Floats]]:
     """Yield about the states of periodic orbits that simulated motions tend to."""
-    from proofs.motion.transients import GOING, Motions
+    from proofs.motion.transients import GOING, Motions, random_impacts
 
-    generator = random.Random(1)
-    starts = [(generator.uniform(0, math.tau), generator.uniform(0, 0.4)) for _ in range(tries)]
-    motions, path = Motions(system, epsilon, starts), []
+    motions, path = Motions(system, epsilon, random_impacts(tries)), []
     motions.follow(_IMPACTS)
     for _ in range(_LONGEST + 1):
         path.append([*zip(motions.phases.tolist(), motions.speeds.tolist(), strict=True)])

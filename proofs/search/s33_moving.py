@@ -118,20 +118,13 @@ def _edges(system: System, now: Moving, index: int, margin: float) -> Pair | Non
     edges = []
     goals = reversed(targets) if now.falls[index] else targets
     for edge, (target, extreme) in zip(now.phases[index], goals, strict=True):
-        moved = edge
-        for _ in range(4):  # back from where flights graze
-            images = [
-                landing(system, epsilon, moved, gamma) for epsilon, gamma in now.corners(index)
-            ]
-            nearby = [x for x in images if x and abs(x.time - now.flights[index]) < _SAME_FLIGHT]
-            if len(nearby) == len(images):
-                break
-            moved = moved * 0.75 + sum(now.phases[index]) / 2 * 0.25
-        else:
-            return None
+        images = [landing(system, epsilon, edge, gamma) for epsilon, gamma in now.corners(index)]
+        nearby = [x for x in images if x and abs(x.time - now.flights[index]) < _SAME_FLIGHT]
+        if len(nearby) < len(images):
+            return None  # a flight grazes
         image = extreme(nearby, key=lambda each: _near(each, target))
         step = (target - _near(image, target)) / image.derivative[0][0]
-        edges.append(moved + min(_STEP, max(-_STEP, step)))
+        edges.append(edge + min(_STEP, max(-_STEP, step)))
     return edges[0], edges[1]
 
 

@@ -39,7 +39,7 @@ def prove(request: Request) -> Evidence:
     """
     if request.of.box is None or request.of.epsilon is None or request.of.velocities is None:
         return Evidence()
-    prover = ReboundProver(request.of, request.prover())
+    prover = ReboundProver(request.of, request.digits)
     at = Place.restituting(request.of.eta, request.of.nu, request.of.epsilon)
     exact = [claim for claim in request.claims if claim not in ("N4", "N5")]
     named, notes = _at_exact_numbers(prover, at, exact, request.tell) if exact else ({}, {})
@@ -80,7 +80,7 @@ def _at_exact_numbers(
         named["N2"] = pair
     common: list[str] = []
     if nearest == sets:
-        common = _attempt(lambda: prover.horseshoe(at, sets, cuts))
+        common = _attempt(lambda: prover.crossing(at, sets, cuts))
     elif {"N1", "N3"} & set(claims):
         tell("which itineraries are missing")
         common = _attempt(lambda: _never_repeats(prover, pair, images))
@@ -89,7 +89,7 @@ def _at_exact_numbers(
     if "N1" in named and nearest != sets:
         named["N1"] += [*_attempt(lambda: prover.constant_word(pair)), *prover.corners(at, sets)]
         if nearest is not None:
-            named["N1"] += _attempt(lambda: prover.horseshoe(at, nearest, cuts))
+            named["N1"] += _attempt(lambda: prover.crossing(at, nearest, cuts))
     if "N3" in named and nearest is not None:
         tell("ranges of parameters")
         named["N3"] += _ranges(prover, at, nearest)
@@ -132,7 +132,7 @@ def _ranges(prover: ReboundProver, exact: Place, nearest: Sets) -> list[str]:
     box = Place(etas, (nu - unit, nu + unit), epsilons)
     for sets in islice(widened(of, nearest, corners), _ATTEMPTS):
         with suppress(Unproved):
-            parts = [prover.horseshoe(box, sets)]
+            parts = [prover.crossing(box, sets)]
             parts += prover.slabs(box, sets, "nu", 2 * unit)
             parts += prover.slabs(box, sets, "nu", -2 * unit)
             more = prover.slabs(replace(exact, epsilon=epsilons), sets, "epsilon", half)

@@ -8,22 +8,21 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise, product
 from typing import Any, TypeVar
 
 from intervals.errors import Undecided
-from proofs.methods.derivation import concluded
 from proofs.motion.simulate import landing
 from proofs.motion.system import System
+from proofs.motion.witness import HORIZON
 from proofs.search.evidence import FAILED
 from proofs.search.s33_rectangles import Sets, image_phases, state_after
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion, place_of
-from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.differential import BITS, Differential, differential_on
 from proofs.trusted.kernel.rates import PLAIN, Cone
 from proofs.trusted.kernel.rectangles import Rectangle
@@ -43,23 +42,13 @@ _MOST_SLABS = 40
 _ROOM = 40  # bits beyond those of a result
 
 
-@dataclass
-class ReboundProver:
+class ReboundProver(Prover):
     """Adds steps about impacts with restitution to those of the plastic map."""
 
-    of: Parameters
-    plain: Prover
-    _names: dict[object, str] = field(default_factory=dict)  # some of steps that were taken back
-
-    @property
-    def steps(self) -> dict[str, dict[str, Any]]:
-        """The steps so far."""
-        return self.plain.steps
-
-    @property
-    def known(self) -> dict[str, Conclusion]:
-        """What they conclude."""
-        return self.plain.known
+    def __init__(self, of: Parameters, digits: int) -> None:
+        super().__init__(System(of.eta, of.nu), digits, HORIZON)
+        self.of = self.context.parameters = of
+        self._names = dict[str, str]()  # of steps, some of which may have been taken back
 
     @property
     def velocities(self) -> Range:
@@ -79,30 +68,30 @@ class ReboundProver:
     def attempt(self) -> Iterator[None]:
         """Do something; nothing is recorded of it if it fails, and failures are Unproved."""
         try:
-            with self.plain.undone():
+            with self.undone():
                 yield
         except FAILED as failure:
             raise Unproved(str(failure)) from None
 
     # -- steps ---------------------------------------------------------------------------------
 
-    def derive(self, rule: str, **witness: Any) -> str:
-        """Prove a step from earlier ones, by the theorem itself; once."""
+    def derive(self, rule: str, witness: dict[str, Any], kind: str = "") -> tuple[str, Any]:
+        """Add a step, once; return its name, with what it concludes."""
         step = {"rule": rule, "witness": witness}
         name = self._names.get(repr(step), "")
         if self.steps.get(name) != step:
-            conclusion = concluded(rule, witness, Context(self.of, {}, self.known))
-            name = self._names[repr(step)] = self.plain.record(rule, witness, conclusion)
-        return name
+            name = self._names[repr(step)] = self.add(rule, witness, kind)
+        return name, self.known[name]
 
     def state(self, at: Place, box: Box, bits: int = BITS) -> tuple[str, Differential]:
         """Prove the next impact of all states of a box (rule differential), once."""
-        turns, function = [turns_of(at, box)], function_of(at)
-        sides = [texts(side) for side in box]
-        name = self.derive(
-            "differential", function=function, box=sides, turns=turns, bits=str(bits)
-        )
-        return name, self.get(name, Differential)
+        witness = {
+            "function": function_of(at),
+            "box": [texts(side) for side in box],
+            "turns": [turns_of(at, box)],
+            "bits": str(bits),
+        }
+        return self.derive("differential", witness)
 
     def rectangle(self, at: Place, phases: Range, cuts: Sequence[Fraction] = ()) -> str:
         """Prove what F does on a rectangle, in parts between the cuts or finer."""
@@ -114,15 +103,14 @@ class ReboundProver:
         inner = _finer([low, *(cut for cut in cuts if low < cut < high), high])
         while True:
             try:
-                name = self.derive(
-                    "rectangle",
-                    function=function_of(at),
-                    box=[texts(side) for side in box],
-                    cuts=texts(inner[1:-1]),
-                    turns=[turns],
-                )
-                parts = self.get(name, Rectangle).parts
-                wide = [part.box[0] for part in parts if not fits(part)]
+                witness = {
+                    "function": function_of(at),
+                    "box": [texts(side) for side in box],
+                    "cuts": texts(inner[1:-1]),
+                    "turns": [turns],
+                }
+                name, rectangle = self.derive("rectangle", witness)
+                wide = [part.box[0] for part in rectangle.parts if not fits(part)]
             except FAILED:
                 wide = [part for part in pairwise(inner) if not _is_smooth(at, (part, box[1]))]
                 if not wide:
@@ -143,7 +131,7 @@ class ReboundProver:
         with self.attempt():
             return [self.rectangle(at, phases, cuts) for phases in sets]
 
-    def horseshoe(self, at: Place, sets: Sets, cuts: Sequence[Fraction] = ()) -> str:
+    def crossing(self, at: Place, sets: Sets, cuts: Sequence[Fraction] = ()) -> str:
         """Prove that F maps both rectangles across both."""
         images = image_phases(at, self.velocities)
         for ends in sets:
@@ -160,9 +148,8 @@ class ReboundProver:
     ) -> str:
         """Prove which rectangles F maps across which (rule horseshoe)."""
         following = [[str(k + 1) for k in each] for each in arrows]
-        return self.derive(
-            "horseshoe", rectangles=list(names), arrows=following, cone=texts(cone), **more
-        )
+        witness = {"rectangles": list(names), "arrows": following, "cone": texts(cone), **more}
+        return self.derive("horseshoe", witness)[0]
 
     # -- words ---------------------------------------------------------------------------------
 
@@ -172,7 +159,7 @@ class ReboundProver:
             raise Unproved("in floating point an orbit follows the word")
         symbols = [str(symbol + 1) for symbol in word]
         way = {"from": "above" if above else "below"}
-        return self.derive("barred-word", rectangles=list(pair), word=symbols, **way)
+        return self.derive("barred-word", {"rectangles": list(pair), "word": symbols, **way})[0]
 
     def constant_word(self, pair: Sequence[str], symbols: Sequence[int] = (0, 1)) -> str:
         """Prove that no orbit follows some word of one symbol, the shortest that will do."""
@@ -193,7 +180,7 @@ class ReboundProver:
     def never_repeats(self, pair: Sequence[str], right: Range) -> str:
         """Prove that full orbits do not repeat V2, by what F does on a part N of V2."""
         with self.attempt():
-            part = self.rectangle(place_of(self.get(pair[0], Rectangle)), right)
+            part = self.rectangle(place_of(self.known[pair[0]]), right)
             words = [
                 self.bar(pair, word, True) for word in ((0, 0, 1, 1), (1, 0, 1, 1), (0, 1, 1, 1))
             ]
@@ -220,9 +207,7 @@ class ReboundProver:
             if images and (not short or sets[0][0] < least(images) < sets[1][1]):
                 gamma = images[least(images)]
                 with suppress(*FAILED):
-                    names.append(
-                        self.state(at, ((end, end), (gamma, gamma)), self.plain.bits + _ROOM)[0]
-                    )
+                    names.append(self.state(at, ((end, end), (gamma, gamma)), self.bits + _ROOM)[0])
         return names
 
     # -- ranges of parameters ------------------------------------------------------------------
@@ -235,7 +220,7 @@ class ReboundProver:
         while abs(size) >= abs(step) / _FINEST and len(names) < _MOST_SLABS:
             slab = (high, high + size) if step > 0 else (low + size, low)
             try:
-                names.append(self.horseshoe(replace(at, **{side: slab}), sets))
+                names.append(self.crossing(replace(at, **{side: slab}), sets))
             except (Unproved, ValueError):
                 size /= 2
             else:

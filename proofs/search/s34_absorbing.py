@@ -18,10 +18,10 @@ from typing import Any
 import numpy as np
 
 from intervals import Undecided
-from proofs.methods.basin import Cutting, Density, Floats, Mesh, Piece, Whole
+from proofs.methods.basin import Cutting, Density, Mesh, Piece, Whole
 from proofs.motion.digits import middle
 from proofs.motion.landing import short, zero
-from proofs.motion.many import float_clock, float_launch
+from proofs.motion.many import Floats
 from proofs.motion.system import System
 from proofs.motion.windows import Candidates
 from proofs.search.evidence import FAILED
@@ -30,6 +30,7 @@ from proofs.search.steps import Prover
 from proofs.trusted.certificate import Reader, texts
 from proofs.trusted.equations import (
     Clock,
+    clock,
     gap,
     inverse_bend,
     inverse_slope,
@@ -109,8 +110,7 @@ class Partition:
             raise Undecided("no branch of f is proved between phases that stick at the next impact")
         pieces = _Pieces(self.system, branches, between, float(self.line[0]))
         mesh = self._mesh(pieces, between)
-        growth = mesh.grow(self.goal, self.most, self.impacts)
-        cuts = mesh.leaning(growth.absorbed)
+        cuts = mesh.grow(self.goal, self.most, self.impacts).cutting
         self.entries["cells"] = []
         for index, branch in enumerate(branches.branches):
             at = np.flatnonzero(cuts.branch == index)
@@ -125,10 +125,9 @@ class Partition:
         landed = [first, float(between[1]), last]
         sink = fixed[2] if self.never else None
         mesh = Mesh(first, pieces.parts, pieces.inverse, pieces.density, landed, sink)
-        none = np.full(len(fixed), -1)
-        mesh.add(Cutting(fixed, none, fixed, np.zeros(len(fixed), np.int64)), none)
-        orbits = pieces.orbits()
-        mesh.add(orbits, np.full(len(orbits.phases), -1))
+        none, no_turns = np.full(len(fixed), -1), np.zeros(len(fixed), np.int64)
+        mesh.add(Cutting(fixed, none, fixed, no_turns))
+        mesh.add(pieces.orbits())
         mesh.seed()
         return mesh
 
@@ -153,8 +152,8 @@ class Partition:
 
     def _height(self, phase: float, image: float) -> float:
         """Return about the gap at a phase on the line after a launch."""
-        start = float_launch(self.system, np.array(phase))
-        return float(gap(start, float_clock(self.system, np.array(image - phase))))
+        start = self.system.launched(np.array(phase))
+        return float(gap(start, clock(float(self.system.eta), np.array(image - phase))))
 
     def _prove_cells(self, name: str, branch: Branch, cuts: Cutting) -> None:
         """Prove the cells of one branch between cuts."""
@@ -238,7 +237,7 @@ class _Pieces:
 
     def _along(self, phases: Floats, now: Clock) -> Floats:
         """Return about minus the derivative of the gap in the phase at a fixed image."""
-        start = float_launch(self.system, phases)
+        start = self.system.launched(phases)
         along: Floats = now.mass_sin / start.eta * launch_acceleration(start)
         return along
 
@@ -249,7 +248,7 @@ class _Pieces:
         for count in range(_HALVINGS + _NEWTON):
             middle = (low + high) / 2
             now = reduced_clock(self.system, middle, images, turns)
-            height = gap(float_launch(self.system, middle), now)
+            height = gap(self.system.launched(middle), now)
             if count >= _HALVINGS:
                 step = height / self._along(middle, now)
                 low = high = np.clip(middle + step, low.min(initial=9), high.max(initial=-9))
@@ -260,7 +259,7 @@ class _Pieces:
 
     def density(self, cuts: Cutting) -> Density:
         """Guess bounds of 1/|f'| on the cells between cuts, from the values at their ends."""
-        start = float_launch(self.system, cuts.phases)
+        start = self.system.launched(cuts.phases)
         now = reduced_clock(self.system, cuts.phases, cuts.images, cuts.turns)
         with np.errstate(all="ignore"):
             first = inverse_slope(start, now)
@@ -307,7 +306,7 @@ def reduced_clock(system: System, phases: Floats, images: Floats, turns: Whole) 
 
 def polished(system: System, phases: Floats, images: Floats, turns: Whole) -> tuple[Floats, Floats]:
     """Return the images of phases by Newton's method, near the given ones, and gap' there."""
-    start = float_launch(system, phases)
+    start = system.launched(phases)
     for _ in range(3):
         now = reduced_clock(system, phases, images, turns)
         fall = gap(start, now, 1)

@@ -16,7 +16,7 @@ from proofs.trusted.kernel.stable import StableCycle
 from proofs.trusted.numbers import Range
 
 _UNIT = Fraction(1, 10**6)  # epsilons are multiples
-_FIRST, _LEAST = 250, 24  # units: the first step, and the last one
+_FIRST, _LEAST = 250, 20  # units: the first step, and the last one
 _MOST = 100  # tries each way
 
 

@@ -10,18 +10,15 @@ from contextlib import suppress
 from fractions import Fraction
 from typing import Any
 
-from intervals import Undecided
 from proofs.motion.chatter import BITS, Pushing, around
 from proofs.search.evidence import FAILED, Proof
 from proofs.search.steps import Prover
 from proofs.trusted.certificate import texts
-from proofs.trusted.numbers import Range, bits_for
+from proofs.trusted.numbers import bits_for
 from proofs.trusted.paper.s34_circle.bounces import Box, landed
-from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.paper.s34_circle.persistence import Cell, SuperstableMotion
 
 _SPARE = 20  # bits of enclosures beyond those of brackets
-_MOST = 60  # bounces
 _UNITS = 10**6
 
 
@@ -33,14 +30,11 @@ def witness(
         "separation": separation,
         "box": [texts(side) for side in box],
         "impacts": list(impacts),
-        "cells": [_written(cell) for cell in cells],
+        "cells": [
+            {"epsilon": texts(each.epsilons), "bounces": [texts(time) for time in each.bounces]}
+            for each in cells
+        ],
     }
-
-
-def _written(cell: Cell) -> dict[str, Any]:
-    ratio, rest = map(str, cell.ending) if cell.ending else (None, None)
-    bounces = [texts(bounce) for bounce in cell.bounces]
-    return {"epsilon": texts(cell.epsilons), "bounces": bounces, "ratio": ratio, "rest": rest}
 
 
 def border(prover: Prover, motion: tuple[str, SuperstableMotion]) -> Proof:
@@ -51,35 +45,21 @@ def border(prover: Prover, motion: tuple[str, SuperstableMotion]) -> Proof:
     name, resting = motion
     separation, arc = prover.steps[name]["witness"]["separation"], resting.arc
     box = around(arc, 2 * max(high - low for low, high in (arc.arrival, arc.speed)))
+    bits, states = bits_for(box[0]), landed(arc, box, BITS)
+    pushing = Pushing(arc.at, arc.phase[0], bits, 2 ** (bits - _SPARE))
     ends = dict[bool, Cell]()  # by whether the mass passes
     low, high = int(resting.largest * _UNITS), _UNITS
     while high - low > 1:
         middle = (low + high) // 2
         try:
-            end = followed(arc, box, Fraction(middle, _UNITS))
+            epsilon = Fraction(middle, _UNITS)
+            end, rest = pushing.settle((epsilon, epsilon), *states, arc.phase)
         except FAILED:
             break
-        ends[end.ending is None] = end
-        low, high = (low, middle) if end.ending is None else (middle, high)
+        ends[rest is None] = end
+        low, high = (low, middle) if rest is None else (middle, high)
     proof: Proof = []
     for _, end in sorted(ends.items()):
         with suppress(*FAILED):
             proof.append(prover.derive("superstable-motion", witness(separation, box, [end])))
     return proof
-
-
-def followed(arc: Separation, box: Box, epsilon: Fraction) -> Cell:
-    """Follow bounces at one epsilon until they rest, or the mass passes phi_s; or Undecided."""
-    bits, bounces = bits_for(box[0]), list[Range]()
-    pushing = Pushing(arc.at, arc.phase[0], bits, 2 ** (bits - _SPARE))
-    phases, speeds = landed(arc, box, BITS)
-    for _ in range(_MOST):
-        kicks = epsilon * speeds[0], epsilon * speeds[1]
-        ending = pushing.ending(epsilon, phases, kicks[1])
-        if ending is not None:
-            return Cell((epsilon, epsilon), bounces, ending)
-        if pushing.flies(phases, kicks, arc.phase):
-            return Cell((epsilon, epsilon), bounces, None)
-        time, (phases, speeds) = pushing.bounce(phases, kicks)
-        bounces.append(time)
-    raise Undecided(f"{_MOST} bounces and no end")

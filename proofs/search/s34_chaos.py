@@ -13,7 +13,7 @@ from fractions import Fraction
 from itertools import pairwise
 
 from intervals import Undecided
-from proofs.methods.subshifts import Subshift, largest_subshift, tower
+from proofs.methods.subshifts import Growing, largest_subshift, tower
 from proofs.motion.system import System
 from proofs.motion.windows import Candidate, Candidates
 from proofs.search.budget import FASTEST
@@ -97,7 +97,7 @@ def prove_covering(
         return []
 
 
-def _record(prover: Prover, branches: Branches, subshift: Subshift) -> tuple[str, EntropyBound]:
+def _record(prover: Prover, branches: Branches, subshift: Growing) -> tuple[str, EntropyBound]:
     """Record the step `covering-graph`, the growth rounded down."""
     growth = subshift.growth * 10**4 // 1 / Fraction(10**4)
     used = {

@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 from typing import TypeVar
@@ -35,7 +34,7 @@ _STICKS = {"G1", "G2", "G3", "G4", "G6", "G10", "G13"}  # what rests on where th
 _NEVER = {"M6", "G4", "G6", "G10", "G13", "G14"}  # what rests on phases that never impact again
 _FOLLOWED = {"G4", "G6", "G10", "G13"}  # what rests on where all others lead
 _SYMBOLS = 3  # of the full shift around all invariant sets of section 3
-_Found = TypeVar("_Found", bound=Conclusion)
+_Step = TypeVar("_Step", bound=tuple[str, Conclusion])
 
 
 @proving
@@ -43,43 +42,32 @@ def prove(request: Request) -> Evidence:
     """Prove what the claims asked for rest on; what fails is left out."""
     prover = request.prover()
     evidence = Evidence(prover.steps, {claim: [] for claim in request.claims})
-    run = _Run(prover, evidence, request.tell)
     if not -1 < request.of.nu < 0 < request.of.eta < 1:
         return evidence
-    arc = run.attempt("where the mass sticks", _STICKS, partial(prove_arc, prover))
-    never = run.attempt("phases without a next impact", _NEVER, partial(prove_longest, prover))
+
+    def made(stage: str, rests: set[str], make: Callable[[], _Step]) -> _Step | None:
+        """Make a step for the claims that rest on it, if any; what fails leaves no step."""
+        claims = rests & evidence.proofs.keys()
+        if not claims:
+            return None
+        request.tell(stage)
+        with suppress(*FAILED), prover.undone():
+            step = make()
+            for claim in claims:
+                evidence.proofs[claim].append(step)
+            return step
+        return None
+
+    arc = made("where the mass sticks", _STICKS, partial(prove_arc, prover))
+    never = made("phases without a next impact", _NEVER, partial(prove_longest, prover))
     if request.asks("M6"):
         lemmas = Steps(request.digits, steps=prover.steps)
         evidence.proofs["M6"] += filter(None, map(lemmas.prove, unending.needs))
     if arc is not None:
-        run.attempt("where all others lead", _FOLLOWED, Partition(prover, arc, never).prove)
+        made("where all others lead", _FOLLOWED, Partition(prover, arc, never).prove)
     around = hull([request.of.interval, PRINTED])
-    run.attempt("a full shift", {"G6"}, partial(prove_shift, prover, around, _SYMBOLS))
+    made("a full shift", {"G6"}, partial(prove_shift, prover, around, _SYMBOLS))
     return evidence
-
-
-@dataclass
-class _Run:
-    """The evidence of one run, by the steps of one prover."""
-
-    prover: Prover
-    evidence: Evidence
-    tell: Callable[[str], None]
-
-    def attempt(
-        self, stage: str, rests: set[str], make: Callable[[], tuple[str, _Found]]
-    ) -> tuple[str, _Found] | None:
-        """Make a step for the claims that rest on it, if any; what fails leaves no step."""
-        proofs = [proof for claim, proof in self.evidence.proofs.items() if claim in rests]
-        if not proofs:
-            return None
-        self.tell(stage)
-        with suppress(*FAILED), self.prover.undone():
-            step = make()
-            for proof in proofs:
-                proof.append(step)
-            return step
-        return None
 
 
 def prove_arc(prover: Prover) -> tuple[str, Separation]:

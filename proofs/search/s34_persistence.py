@@ -13,7 +13,7 @@ from fractions import Fraction
 from itertools import islice
 
 from intervals import Undecided
-from intervals.cover import halves
+from intervals.cover import cover, halves
 from proofs.motion.chatter import BITS, Pushing, around
 from proofs.motion.simulate import TURNS
 from proofs.motion.transients import INITIAL_STATES, Summary, transients
@@ -40,7 +40,7 @@ _TRIES = 20  # simulated motions
 @proving
 def prove(request: Request) -> Evidence:
     """Prove what the claims asked for rest on; G8 is an observation: it is simulated."""
-    prover, evidence = request.prover(), Evidence()
+    prover, evidence = ReboundProver(request.of, request.digits), Evidence()
     if request.asks("G7", "G12", "G15", "G16"):
         with suppress(*FAILED):  # what is not proved the claims do not say
             request.tell(
@@ -54,11 +54,10 @@ def prove(request: Request) -> Evidence:
                 evidence.proofs["G15"] = [*proof, *border(prover, motion)]
             if request.asks("G7", "G12", "G16"):
                 request.tell("another stable orbit")
-                rebounds = ReboundProver(request.of, prover)
-                others = list(islice(stable_cycles(rebounds, _OTHER, _TRIES, 2), 1))
+                others = list(islice(stable_cycles(prover, _OTHER, _TRIES, 2), 1))
                 if request.asks("G16"):
                     request.tell("the same orbit for other epsilon")
-                    cycles = [each for _, other in others for each in branch(rebounds, other)]
+                    cycles = [each for _, other in others for each in branch(prover, other)]
                     evidence.proofs["G16"] = [*proof, *cycles]
                 proof += others
     if request.asks("G8"):
@@ -101,33 +100,25 @@ def _cells(pushing: Pushing, arc: Separation, box: Box, enough: Fraction) -> lis
 
     By steps of epsilon and ever smaller ones, until the proof fails.
     """
-    phases, speeds = landed(arc, box, BITS)
+    states, done = landed(arc, box, BITS), Fraction(0)
     cells: list[Cell] = []
-    done = Fraction(0)
     for step in _STEPS:
+
+        def settled(epsilon: Range, least: Fraction = step / 2**_HALVINGS) -> Cell | None:
+            try:
+                return pushing.settle(epsilon, *states)[0]
+            except Undecided:
+                if epsilon[1] - epsilon[0] <= least:
+                    raise
+                return None
+
         while done < enough and done + step < 1:
             try:
-                pushing.settle((done + step, done + step), phases, speeds)  # hopeless otherwise
-                cells += _halved(pushing, (done, done + step), phases, speeds, _HALVINGS)
+                pushing.settle((done + step, done + step), *states)  # hopeless otherwise
+                cells += [cell for _, cell in cover([(done, done + step)], settled, halves)]
             except Undecided:
                 break
             done += step
     if not cells:
         raise Undecided("no epsilon > 0 is proved to let the mass come to rest")
     return cells
-
-
-def _halved(
-    pushing: Pushing, epsilon: Range, phases: Range, speeds: Range, halvings: int
-) -> list[Cell]:
-    """Prove that bounces end for all epsilon of a range, in as many parts as it takes."""
-    try:
-        return [pushing.settle(epsilon, phases, speeds)]
-    except Undecided:
-        if halvings == 0:
-            raise Undecided(f"epsilon near {float(epsilon[0]):.6g}") from None
-    return [
-        cell
-        for half in halves(epsilon)
-        for cell in _halved(pushing, half, phases, speeds, halvings - 1)
-    ]

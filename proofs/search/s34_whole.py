@@ -13,6 +13,7 @@ from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
 from types import MappingProxyType
+from typing import Any
 
 from intervals import Undecided
 from proofs.motion.digits import middle
@@ -81,8 +82,10 @@ class _Whole:
 # -- expansion -------------------------------------------------------------------------------------
 
 
-def prove_expansion(laps: Laps) -> tuple[str, Expansion]:
-    """Prove that lengths grow, those of phases above pi/2 times a factor (rule expansion)."""
+def prove_expansion(laps: Laps) -> tuple[str, Cycles]:
+    """Prove that lengths grow, those of phases above pi/2 times a factor, and all periodic orbits
+    up to a period (rule expansion).
+    """
     pieces = laps.pieces
     scales = tuple(
         _SCALE if piece.phases[0] > Fraction(math.pi / 2) else Fraction(1)
@@ -99,6 +102,7 @@ def prove_expansion(laps: Laps) -> tuple[str, Expansion]:
         "cells": [each.witness() for each in cutting],
         "scales": texts(scales),
         "rate": str(_RATE),
+        **_orbits(laps, Expansion(pieces, scales, _RATE)),
     }
     return laps.prover.derive("expansion", witness)
 
@@ -155,31 +159,29 @@ class _Cutting:
 # -- periodic orbits -------------------------------------------------------------------------------
 
 
-def prove_cycles(laps: Laps, grown: tuple[str, Expansion]) -> tuple[str, Cycles]:
-    """Prove all periodic orbits up to a period (rule cycles)."""
+def _orbits(laps: Laps, expansion: Expansion) -> dict[str, Any]:
+    """Return what the rule expansion reads about periodic orbits up to a period."""
     images, points = Images(laps.branches), Images(laps.branches)
-    outer = Outer(grown[1], images)
+    outer = Outer(expansion, images)
     alive = [
         word
         for length in range(1, _LONGEST + 1)
         for word, state in outer.words(length)
         if is_least(word) and not outer.dies(word, state)
     ]
-    pieces = grown[1].pieces.monotone
+    pieces = expansion.pieces.monotone
     orbits = []
     for word in alive:
         orbit = _cycle(laps, [pieces[i].branch for i in word])
         with suppress(*FAILED):
-            if word_of(grown[1], [(x, points(x)) for x in orbit], _RADIUS) == word:
+            if word_of(expansion, [(x, points(x)) for x in orbit], _RADIUS) == word:
                 orbits.append(orbit)
-    witness = {
-        "expansion": grown[0],
+    return {
         "orbits": [[points.bracket(x) for x in orbit] for orbit in orbits],
         "radius": str(_RADIUS),
         "longest": str(_LONGEST),
         "images": images.witness(),
     }
-    return laps.prover.derive("cycles", witness)
 
 
 def _cycle(laps: Laps, branches: Sequence[Branch]) -> list[Fraction]:
@@ -251,16 +253,13 @@ def _graze(prover: Prover, phase: Fraction, time: Fraction) -> tuple[Fraction, F
     return phase, time
 
 
-def prove_all_orbits(shared: _Whole) -> Proof:
-    """Prove the expansion, and all periodic orbits up to a period."""
-    grown = prove_expansion(shared.laps)
-    return [shared.range, grown, prove_cycles(shared.laps, grown)]
-
-
 _SEARCHES: Mapping[str, tuple[str, Callable[[_Whole], Proof]]] = MappingProxyType(
     {
         "G17": ("where f jumps, and what its pieces lead to", lambda whole: [whole.range]),
-        "G18": ("where f expands, and periodic orbits", prove_all_orbits),
+        "G18": (
+            "where f expands, and periodic orbits",
+            lambda whole: [whole.range, prove_expansion(whole.laps)],
+        ),
         "H18": ("square roots", prove_roots),
     }
 )

@@ -7,14 +7,15 @@ flights. So neither mpmath nor numpy is needed.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from fractions import Fraction
 from functools import cached_property
+from itertools import pairwise
 from typing import Any
 
 from intervals import Undecided
 from intervals.cover import PartsExhausted, cover, halves
-from proofs.methods.derivation import Derivation
-from proofs.methods.extremes import extremes
+from proofs.methods.derivation import Derivation, concluded
 from proofs.methods.moran import moran_root
 from proofs.motion.system import System
 from proofs.motion.witness import NoImpact
@@ -28,7 +29,7 @@ from proofs.trusted.kernel.firstzero import NoFirstZero
 from proofs.trusted.kernel.laps import SlopeRange
 from proofs.trusted.kernel.moran import MoranRoot
 from proofs.trusted.kernel.staying import StayingSet
-from proofs.trusted.numbers import TURN, Range, show_range
+from proofs.trusted.numbers import TURN, Range, hull, show_range, within
 from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.windows import BITS as WINDOW_BITS
@@ -115,7 +116,20 @@ class Prover(Derivation):
             raise Undecided(f"{_MOST_PARTS} parts of {show_range(phases)} do not suffice") from None
 
     def slopes(self, points: list[Fraction]) -> tuple[str, SlopeRange]:
-        """Prove f C^1 on [points[0], points[-1]] and enclose f' there (rule slopes)."""
+        """Prove f C^1 on [points[0], points[-1]] and enclose f' there (rule slopes).
+
+        Between the points others are put only where their slopes do not bound f'.
+        """
+        witness = {"function": self.function, "points": texts(points), "bits": str(self.bits)}
+        with suppress(Unproved):
+            proved: SlopeRange = concluded("slopes", witness, self.context)
+            if all(map(within, proved.pieces, map(hull, pairwise(proved.slopes)))):
+                return self.record("slopes", witness, proved), proved
+        return self.derive("slopes", witness | {"points": texts(list(self._cuts(points)))})
+
+    def _cuts(self, points: list[Fraction]) -> Sequence[Fraction]:
+        """Return points between which f' is bounded by its values there, or nearly so."""
+        from proofs.methods.extremes import extremes
 
         def slope(x: Fraction) -> Range:
             return self.impact_map.jacobian(enclosed(((x, x),), BITS))[0][0].range
@@ -123,9 +137,7 @@ class Prover(Derivation):
         def bend(low: Fraction, high: Fraction) -> Range:
             return self.impact_map.bend(enclosed(((low, high),), BITS)).range
 
-        cuts = texts(extremes(slope, bend, points).points)
-        witness = {"function": self.function, "points": cuts, "bits": str(self.bits)}
-        return self.derive("slopes", witness)
+        return extremes(slope, bend, points).points
 
     def avoids(self, phases: Range, target: Range) -> tuple[str, Avoids]:
         """Prove that no phase of `phases` has its first impact in `target` (rule avoids)."""

@@ -6,7 +6,6 @@ integers, and what does not exist is null.
 
 from __future__ import annotations
 
-import json
 from argparse import Namespace
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -16,6 +15,7 @@ from intervals import decimal_bounds
 from proofs.shell.cli import Parser, heard, progress, share
 from proofs.shell.files import check_targets, write_target
 from proofs.shell.screen import say
+from proofs.trusted.files import render
 from proofs.trusted.numbers import Range
 
 Answer = dict[str, Any]  # the JSON object
@@ -53,7 +53,7 @@ def answering(
 def machine_text(parser: Parser, answer: Answer) -> str:
     """Return the machine form, with the schema of the command's answers."""
     schema = f"impact-proofs.{parser.prog.rpartition(' ')[2]}/1"
-    return json.dumps({"schema": schema, **answer}, indent=1) + "\n"
+    return render({"schema": schema, **answer})
 
 
 def give(parser: Parser, options: Namespace, answer: Answer, text: Callable[[Answer], str]) -> None:

@@ -1,6 +1,10 @@
 """Groups of claims: what a prover proved, decided, and written as a certificate and a page.
 
 A group has a prover in `proofs.search`, and a command, a row of `proofs.commands.groups`.
+
+MANIFEST.json says for each file the claims that it settles, its digest, and the two commands: that
+makes the certificate, and that checks it in the folder where it lies. The same certificates always
+are the same bytes there: nothing tells when or where they were made.
 """
 
 from __future__ import annotations
@@ -10,15 +14,16 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from importlib import import_module
+from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from intervals import decimal_bounds
 from proofs.report.page import Line, page
 from proofs.search.evidence import Evidence, Tell
-from proofs.trusted.certificate import SCHEMA, Reader, used_steps
-from proofs.trusted.files import box_to_json, parameters_to_json, render
-from proofs.trusted.manifest import BESIDE
+from proofs.trusted.certificate import MANIFEST, SCHEMA, Reader, parameters_from_json, used_steps
+from proofs.trusted.files import box_to_json, digest, parameters_to_json, render
+from proofs.trusted.manifest import BESIDE, checking, command
 from proofs.trusted.numbers import Range
 from proofs.trusted.paper import BEYOND, GROUPS, find
 from proofs.trusted.parameters import Parameters, Place
@@ -186,3 +191,44 @@ def wanted(
         for group, ids in FILES[file].items()
     }
     return {group: ids for group, ids in groups.items() if ids}
+
+
+MANIFEST_NAME = "MANIFEST.json"
+
+
+def entered(folder: Path, certificates: Mapping[str, str]) -> str:
+    """Return the folder's manifest with certificates, by the names of their files, entered.
+
+    Entries about other files stay; a manifest that cannot be read is replaced.
+    """
+    files = _existing(folder)
+    files |= {name: _entry(name, content) for name, content in certificates.items()}
+    order = {f"{file}.json": place for place, file in enumerate(FILES)}
+    names = sorted(files, key=lambda file: (order.get(file, len(order)), file))
+    return render({"schema": MANIFEST, "files": {file: files[file] for file in names}})
+
+
+def _entry(name: str, content: str) -> dict[str, Any]:
+    """Return what is said of a certificate."""
+    document = json.loads(content)
+    claims = {
+        entry["id"]: {"verdict": entry["verdict"], "statement": entry["statement"]}
+        for entry in document["claims"]
+    }
+    of = parameters_from_json(Reader(document["parameters"]))
+    return {
+        "digest": digest(content),
+        "parameters": document["parameters"],
+        "made": command(name, of, tuple(claims)),
+        "checked": checking(name),
+        "claims": claims,
+    }
+
+
+def _existing(folder: Path) -> dict[str, Any]:
+    """Return the entries of the manifest that is there, if it has the usual form."""
+    try:
+        document = json.loads((folder / MANIFEST_NAME).read_text(encoding="utf-8"))
+        return dict(document["files"]) if document["schema"] == MANIFEST else {}
+    except (OSError, ValueError, KeyError, TypeError):
+        return {}

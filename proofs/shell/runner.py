@@ -18,8 +18,7 @@ from typing import Any, NamedTuple
 from intervals import Undecided
 from proofs.report.figures import figures, names
 from proofs.report.page import Line
-from proofs.shell import manifest
-from proofs.shell.cli import Parser, heard, progress, share
+from proofs.shell.cli import Parser, add_parameters, heard, parameters, progress, refusal, share
 from proofs.shell.files import (
     check_folder,
     check_targets,
@@ -28,8 +27,7 @@ from proofs.shell.files import (
     write_target,
     writing,
 )
-from proofs.shell.groups import FILES, Made, printed, produce, wanted
-from proofs.shell.parameters import add_parameters, parameters, refusal
+from proofs.shell.groups import FILES, MANIFEST_NAME, Made, entered, printed, produce, wanted
 from proofs.shell.screen import Decided, gist, say, show_verdicts
 from proofs.trusted.certificate import Malformed
 from proofs.trusted.files import parameters_to_json, read
@@ -207,7 +205,7 @@ def write(folder: Path, name: str, made: Made) -> None:
         for kind, content in (("json", made.certificate), ("md", made.page + beside)):
             if content:
                 put(f"{name}.{kind}", content)
-        put(manifest.NAME, manifest.entered(folder, {f"{name}.json": made.certificate}))
+        put(MANIFEST_NAME, entered(folder, {f"{name}.json": made.certificate}))
 
 
 def finish(parser: Parser, options: Namespace, made: Made, file: str, *, seconds: float) -> int:

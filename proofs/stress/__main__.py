@@ -16,9 +16,8 @@ from proofs.benchmark.peers import FLINT, Arithmetic, arithmetic, installed
 from proofs.shell.cli import Parser, heard, progress, share, whole
 from proofs.shell.files import check_folder, check_targets, refusing, write_target, writing
 from proofs.shell.screen import say
-from proofs.stress import report
 from proofs.stress.families import FAMILIES, Family, cases
-from proofs.stress.judge import Judgement, judge
+from proofs.stress.judge import Judgement, Run, judge, machine_form, markdown, text
 from proofs.stress.truth import BITS
 
 _CASES = 600
@@ -31,7 +30,7 @@ examples:
   python -m proofs stress --family functions --json - > functions.json
 
 The same seed draws the same cases. With --out the report is written as stress.md and stress.json.
-What is true is computed by python-flint (pip install 'impact-proofs[fast]').
+What is true is computed by python-flint (pip install 'impact-proofs[benchmark]').
 
 families:
 """
@@ -43,14 +42,14 @@ exit status: 0 no case excludes the truth, 1 one does, or the library crashed, 2
 
 def stress(
     families: Sequence[Family], count: int, seed: int, by: Arithmetic, tell: Callable[[str], None]
-) -> report.Run:
+) -> Run:
     """Try about `count` cases of some families."""
     began = perf_counter()
     found: dict[str, list[Judgement]] = {}
     for number, case in enumerate(cases(families, count, seed, by)):
         tell(f"{number} cases, {case.family}")
         found.setdefault(case.family, []).append(judge(case, by))
-    return report.Run(found, seed, by.name, perf_counter() - began)
+    return Run(found, seed, by.name, perf_counter() - began)
 
 
 def _parser() -> Parser:
@@ -75,17 +74,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if options.out is not None:
         check_folder(parser, options.out)
     if not installed("flint"):
-        say(f"{parser.prog}: needs python-flint: pip install 'impact-proofs[fast]'", sys.stderr)
+        say(f"{parser.prog}: no python-flint: pip install 'impact-proofs[benchmark]'", sys.stderr)
         return 1
     by = arithmetic(FLINT, BITS)
     chosen = [f for f in FAMILIES if options.family is None or f.name in options.family]
     with progress() as tell:
         run = stress(chosen, options.cases, options.seed, by, tell)
-    write_target(parser, options.json, lambda: report.machine_form(run))
+    write_target(parser, options.json, lambda: machine_form(run))
     if heard(options):
-        say(report.text(run))
+        say(text(run))
     if options.out is not None:
         with refusing(parser, options.out), writing(options.out) as put:
-            put("stress.md", report.markdown(run, {each.name: each.about for each in FAMILIES}))
-            put("stress.json", report.machine_form(run))
+            put("stress.md", markdown(run, {each.name: each.about for each in FAMILIES}))
+            put("stress.json", machine_form(run))
     return int(bool(run.failures))

@@ -15,7 +15,8 @@ from typing import Any
 
 from intervals import Interval, IntervalArray
 from proofs.benchmark.peers import Arithmetic, Range
-from proofs.stress.cases import Answer, Case, Draw, Truth
+from proofs.stress.cases import Answer, Case, Draw
+from proofs.stress.truth import Truth
 
 _OPERATIONS: dict[str, Any] = {
     "+": operator.add,

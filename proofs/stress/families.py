@@ -12,19 +12,18 @@ import mpmath
 
 from proofs.benchmark.peers import Arithmetic
 from proofs.stress.arithmetic import function, operation
-from proofs.stress.cases import ETA, NU, Case, Draw, System
-from proofs.stress.grazing import graze, separation_point
-from proofs.stress.motions import ImageCase, ReboundCase
+from proofs.stress.cases import ETA, NU, Case, Draw, ImageCase, Numbers, ReboundCase
+from proofs.stress.truth import graze, separation_point
 
 _CIRCLE = Fraction(62831, 10000)
 
 
-def _point(draw: Draw, of: System, phase: Fraction, digits: int, horizon: int) -> ImageCase:
+def _point(draw: Draw, of: Numbers, phase: Fraction, digits: int, horizon: int) -> ImageCase:
     far = Fraction(horizon)
     return ImageCase(draw.family, *of, phase, phase, digits=digits, horizon=far)
 
 
-def _around(draw: Draw, of: System, phase: Fraction, room: Fraction) -> ImageCase:
+def _around(draw: Draw, of: Numbers, phase: Fraction, room: Fraction) -> ImageCase:
     """Return the launch at a phase, or half of the time an interval within `room` above it."""
     width = room / 10 ** draw.randint(1, 12) if draw.random() < 0.5 else Fraction(0)
     return ImageCase(draw.family, *of, phase, phase + width)
@@ -129,7 +128,7 @@ def _chatter(draw: Draw, _: Arithmetic) -> Case:
     return ReboundCase(draw.family, *of, phase, phase, epsilon, gamma, digits=20)
 
 
-def _velocity(of: System, phase: Fraction, speed: Fraction) -> Fraction:
+def _velocity(of: Numbers, phase: Fraction, speed: Fraction) -> Fraction:
     """Return the velocity gamma of a mass that meets the table with about this speed."""
     eta, nu = of
     with mpmath.workdps(60):

@@ -7,11 +7,14 @@ import os
 import stat
 from hashlib import sha256
 from pathlib import Path
+from textwrap import wrap
 from typing import Any, BinaryIO
 
 from proofs.trusted.certificate import MAX_BYTES, SIGNS, Malformed, Reader, parse, text, texts
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.parameters import Parameters, Place
+
+_WIDTH = 100  # of a line
 
 
 def opened(path: Path) -> BinaryIO:
@@ -57,8 +60,31 @@ def digest(source: str) -> str:
 
 
 def render(document: dict[str, Any]) -> str:
-    """Write a certificate's text: the same document gives the same bytes."""
-    return json.dumps(document, indent=1, ensure_ascii=False) + "\n"
+    """Write a text, on one line what fits there: the same document gives the same bytes."""
+    return _laid_out(document, "") + "\n"
+
+
+def _laid_out(value: Any, margin: str, before: int = 0) -> str:
+    """Write a value that begins so many characters after its margin."""
+    brief = json.dumps(value, ensure_ascii=False)
+    if (
+        len(margin) + before + len(brief) <= _WIDTH
+        or not value
+        or not isinstance(value, dict | list)
+    ):
+        return brief
+    inner = margin + " "
+    if isinstance(value, dict):
+        names = {json.dumps(name, ensure_ascii=False): each for name, each in value.items()}
+        parts = [f"{x}: {_laid_out(each, inner, len(x) + 2)}" for x, each in names.items()]
+    elif all(isinstance(each, str) and " " not in each for each in value):
+        parts = wrap(
+            brief[1:-1], _WIDTH - len(inner), break_long_words=False, break_on_hyphens=False
+        )
+        return f"[\n{inner}" + f"\n{inner}".join(parts) + f"\n{margin}]"
+    else:
+        parts = [_laid_out(each, inner) for each in value]
+    return f"{brief[0]}\n{inner}" + f",\n{inner}".join(parts) + f"\n{margin}{brief[-1]}"
 
 
 def parameters_to_json(of: Parameters) -> dict[str, Any]:

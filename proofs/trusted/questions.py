@@ -61,7 +61,7 @@ def _entropy(count: int) -> Question:
         count,
         f"f is continuous on {number} disjoint intervals of phases and maps each over {every}: the "
         f"full {count}-shift is a factor of f, of entropy log {count}",
-        "every motion comes to rest, or sticks at its second impact: f or f(f) is constant",
+        "every motion comes to rest, and f is defined nowhere, or f(f) is constant",
         lambda found: isinstance(found, EntropyBound) and len(found.cells) >= count,
         lambda found: isinstance(found, AtRest | AllStick),
     )

@@ -22,7 +22,6 @@ RULES: Mapping[str, str] = MappingProxyType(
         "formula-series": "kernel.values.series",
         "formula-solution": "kernel.solutions.solution",
         "formula-value": "kernel.values.value",
-        "zero": "kernel.zeros.zero",
         "unique-zero": "kernel.zeros.unique_zero",
         "periodic-orbits": "kernel.periodic.periodic_orbits",
         "periodic-orbit": "kernel.cycle.periodic_orbit",
@@ -58,16 +57,14 @@ RULES: Mapping[str, str] = MappingProxyType(
         "grazing": "paper.s34_circle.grazing.grazing",
         "pieces": "paper.s34_circle.pieces.pieces",
         "itinerary-graph": "paper.s34_circle.laps.itinerary_graph",
-        "expansion": "paper.s34_circle.expansion.prove_expansion",
-        "cycles": "paper.s34_circle.cycles.prove_cycles",
+        "expansion": "paper.s34_circle.cycles.prove_expansion",
         "superstable-motion": "paper.s34_circle.persistence.prove_superstable_motion",
         "single-solution": "paper.s4_single.orbits.single_solution",
         "single-windows": "paper.s4_single.windows.single_windows",
-        "sticking-motion": "paper.beyond.returning.prove_sticking_motion",
+        "sticking-motion": "paper.beyond.attractors.prove_sticking_motion",
         "grazing-curve": "paper.beyond.grazing.grazing_curve",
         "grazing-meets": "paper.beyond.meetings.meeting",
         "stable-singles": "paper.beyond.singles.stable_singles",
-        "settles": "paper.beyond.attractors.prove_settles",
     }
 )
 

@@ -10,10 +10,9 @@ from hypothesis import example
 from hypothesis import strategies as st
 
 from intervals.elementary import circular, constants, exponential, logarithm, series
-from intervals.elementary.arctan import angle_fixed
+from intervals.elementary.circular import angle_fixed, sincos_fixed
 from intervals.elementary.constants import arc_of_ratio, log2_fixed, log10_fixed, pi_fixed
 from intervals.elementary.explog import exp_fixed, log_fixed
-from intervals.elementary.trig import sincos_fixed
 from tests.intervals.boxes import for_all
 from tests.intervals.oracle import encloses, evaluate, pi_bounds, quarter_turns
 from tests.once import EFFORT

@@ -11,8 +11,7 @@ from intervals.array import IntervalArray
 from intervals.generic import meet
 from intervals.newton import Roots
 from intervals.operators import krawczyk, newton_system
-from tests.intervals.boxes import for_all
-from tests.intervals.claims import check_claim, from_roots
+from tests.intervals.boxes import check_claim, for_all, from_roots
 from tests.intervals.oracle import sqrt_down, sqrt_up, ulp
 
 METHODS = pytest.mark.parametrize("method", [krawczyk, newton_system])

@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 from intervals import Interval
 from intervals.newton import Roots, derivative, newton
 from tests.intervals import oracle
-from tests.intervals.boxes import for_all
-from tests.intervals.claims import check_claim, horner
+from tests.intervals.boxes import check_claim, for_all, horner
 from tests.intervals.oracle import pi_bounds, sqrt_down, sqrt_up, ulp
 
 

@@ -17,8 +17,7 @@ from intervals.newton import Roots
 from intervals.search import Sign, range_of, sign_of
 from intervals.zero_finder import _examined, zeros
 from tests.intervals import oracle
-from tests.intervals.boxes import for_all
-from tests.intervals.claims import from_roots, holds, horner
+from tests.intervals.boxes import for_all, from_roots, holds, horner
 
 rationals = st.fractions(-2, 2, max_denominator=8)
 dyadics = st.integers(-32, 32).map(lambda k: Fraction(k, 16))

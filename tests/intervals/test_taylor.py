@@ -12,8 +12,7 @@ from intervals import DomainError, Interval
 from intervals.array import IntervalArray
 from intervals.taylor import polynomial_range, taylor
 from tests.intervals import oracle
-from tests.intervals.boxes import for_all
-from tests.intervals.claims import horner
+from tests.intervals.boxes import for_all, horner
 
 FUNCTIONS = {
     "wave": lambda x: x.sin() * x + 1 / (x * x + 2),

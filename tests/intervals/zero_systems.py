@@ -136,7 +136,7 @@ def solved(system, boxes=None):
 def page(rows):
     """The page, with what it was measured on."""
     from proofs.benchmark.page import environment
-    from proofs.report.markup import markdown_table
+    from proofs.report.page import markdown_table
 
     machine = ", ".join(f"{name} {value}" for name, value in environment().items())
     decided = [row for row in rows if not row.left]

@@ -132,8 +132,8 @@ def _comes_to_stick(view, phase):
 def returning_motion(view, rng):
     """Flights from phi_s and from the last phase come back there, or stick, and are closer then."""
     told, back, (away, first) = separation_arc(view.arc, rng), [], _released(view.arc)
-    last = float(view.beyond[1]) - float(away)
-    for found in (first, next_impact(view.arc.eta, view.arc.nu, view.beyond[1])):
+    last = float(view.beyond.points[-1]) - float(away)
+    for found in (first, next_impact(view.arc.eta, view.arc.nu, view.beyond.points[-1])):
         impacts = [found]
         for cell in view.cells:
             if not isinstance(impacts[-1], Impact):

@@ -25,7 +25,10 @@ _OPERATIONS = {
 
 @lru_cache(maxsize=2048)
 def compiled(text):
-    """A function of an environment {name: Arb number}, and the names of its free variables."""
+    """A function of an environment {name: Arb number}, and the names of its free variables.
+
+    Where it has no D, power series may stand for numbers.
+    """
     return _built(ast.parse(text.replace("^", "**"), mode="eval").body)
 
 
@@ -71,12 +74,16 @@ def _called(name, inner, others, places):
 
 def _power(x, n):
     """Of a ball that holds 0 flint knows no powers."""
-    return math.prod([x] * n, start=flint.arb(1)) if 0 < n < 100 and x.contains(0) else x**n
+    if abs(n) >= 100:
+        return x**n
+    power = math.prod([x] * abs(n), start=flint.arb(1))
+    return power if n >= 0 else 1 / power
 
 
 def _root(x):
     """A square root; of what may be 0, by differences for derivatives, that of what is not < 0."""
-    return x.abs_upper().sqrt().union(flint.arb(0)) if x.contains(0) else x.sqrt()
+    may_vanish = isinstance(x, flint.arb) and x.contains(0)
+    return x.abs_upper().sqrt().union(flint.arb(0)) if may_vanish else x.sqrt()
 
 
 def _derivative(value, name):

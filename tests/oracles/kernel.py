@@ -2,7 +2,7 @@
 
 from fractions import Fraction
 from functools import reduce
-from itertools import combinations, pairwise, product
+from itertools import combinations, product
 
 import flint
 import numpy as np
@@ -270,27 +270,6 @@ def _close(one, other):
 
 def _meets(orbit, other):
     return any(_close(orbit[0], point) for point in other)
-
-
-def zero(view, rng):
-    """A zero in the bracket, which signs show; no other in the interval, if that is said."""
-    (low, high), (first, last) = view.bracket, view.interval
-    if not first <= low <= high <= last:
-        return ["the bracket leaves the interval"]
-    with flint.ctx.workprec(BITS):
-        spread = [low + (high - low) * k / 16 for k in range(17)]
-        signs = _signs(view, spread)
-        inner = sum(a != b for a, b in pairwise(signs))
-        whole = _signs(
-            view, sorted({*spread, *(first + (last - first) * k / 60 for k in range(61))})
-        )
-    outer = sum(a != b for a, b in pairwise(whole))
-    return [] if inner and (outer == 1 or not view.only) else [f"{inner}, {outer} changes of sign"]
-
-
-def _signs(view, places):
-    found = [compiled(view.function)[0]({view.variable: exact(x)}) for x in places]
-    return [x > 0 for x in found if x > 0 or x < 0]
 
 
 # -- symbolic dynamics -----------------------------------------------------------------------------

@@ -1,6 +1,6 @@
 """Where the tests get conclusions from: committed certificates, lemmas, provers, the checker.
 
-The only part of these tests, beside the names in `adapter`, that touches the project.
+The only part of these tests, beside the names in `judge`, that touches the project.
 """
 
 import importlib
@@ -99,9 +99,9 @@ def curves(epsilon="0", n=2):
     """The steps about a part of the last curve of grazing that the prover sees."""
     from proofs.search.curves import Curves, seen_curves
 
-    made = Curves(Fraction(epsilon), {})
+    made = Curves(Fraction(epsilon))
     made.grazing(n, [x for x in seen_curves(n, Fraction(epsilon))[-1] if 1.41 < x.eta < 1.45])
-    return made.steps
+    return made.derivation.steps
 
 
 def about_curves():

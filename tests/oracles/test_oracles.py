@@ -1,5 +1,6 @@
 """The oracles accept what is proved, and complain about what is made false; none is missing."""
 
+import json
 import random
 from copy import deepcopy
 from fractions import Fraction
@@ -8,9 +9,9 @@ from types import SimpleNamespace
 import pytest
 
 from tests.once import once
-from tests.oracles.adapter import parameters, view
-from tests.oracles.judge import judge, judge_of
+from tests.oracles.judge import judge, judge_of, parameters, view
 from tests.oracles.motion import TURN, ball
+from tests.oracles.planar import is_of_a_file
 from tests.oracles.plastic import between, lifted
 from tests.oracles.sources import (
     about_curves,
@@ -73,427 +74,263 @@ def test_every_class_of_conclusions_has_an_oracle_and_is_proved_and_made_false()
     assert classes() == set(FALSE) == {one.kind for _, one in true_views()}
 
 
+# -- lies ------------------------------------------------------------------------------------------
+
+
 def off(bounds):
-    """Bounds that miss what lay in these."""
+    """Bounds that miss what lay in these; several of them are moved alike."""
+    if not bounds or isinstance(bounds[0], tuple):
+        return tuple(map(off, bounds))
     width = bounds[1] - bounds[0] + F(1, 100)
     return bounds[0] + width, bounds[1] + width
 
 
-def offs(field, place=None):
-    """Move one pair of bounds, or one of several, or all of them."""
-
-    def change(record):
-        old = getattr(record, field)
-        if isinstance(old[0], tuple):
-            new = tuple(off(x) if place in (None, i) else x for i, x in enumerate(old))
-        else:
-            new = off(old)
-        setattr(record, field, new)
-
-    return change
+def stated(words):
+    """Numbers, a tuple of several; what JSON writes, with numbers as texts; else a text."""
+    if words[:1] == "[" or words in ("null", "true"):
+        return _exact(json.loads(words))
+    try:
+        numbers = tuple(map(_exact, words.split()))
+    except ValueError:
+        return words
+    return numbers[0] if len(numbers) == 1 else numbers
 
 
-def put(field, value):
-    """Replace a field; value may be a function of the old one."""
-
-    def change(record):
-        setattr(record, field, value(getattr(record, field)) if callable(value) else value)
-
-    return change
+def _exact(value):
+    if isinstance(value, list):
+        return tuple(map(_exact, value))
+    number = F(value) if isinstance(value, str) else None
+    return value if number is None else int(number) if number.denominator == 1 else number
 
 
-def _target_hit(record):
+CHANGES = {  # of what is there, by the words behind
+    "=": lambda old, words: stated(words),
+    "+": lambda old, words: old + _exact(words),
+    "*": lambda old, words: old * _exact(words),
+    "1-": lambda old, words: 1 - old,
+    "not": lambda old, words: not old,
+    "text": lambda old, words: words.replace("...", old),
+    # of bounds
+    "off": lambda old, words: off(old),
+    "away": lambda old, words: (old[1] + 10, old[1] + 11),
+    "wide": lambda old, words: (old[0] - 1, old[1] + 1),
+    "half": lambda old, words: (old[0], (old[0] + old[1]) / 2),
+    "short": lambda old, words: (old[0], old[0] + F(1, 10**4)),
+    "point": lambda old, words: (old[0], old[0]),
+    # of several things
+    "reverse": lambda old, words: old[::-1],
+    "swap": lambda old, words: (old[1], old[0], *old[2:]),
+    "drop": lambda old, words: tuple(x for i, x in enumerate(old) if i != int(words) % len(old)),
+    "keep": lambda old, words: old[: int(words)],
+    "from": lambda old, words: old[int(words) :],
+    "odd": lambda old, words: old[::2] if len(old) > 2 else (),
+    "twice": lambda old, words: (*old, old[0]),
+    "alike": lambda old, words: old[:1] * len(old),
+    "more": lambda old, words: (*old, int(words)),
+    "later": lambda old, words: (old[0], *map(off, old[1:])),  # all but the first are elsewhere
+    "beside": lambda old, words: (old[0], *((b, b + (b - a)) for a, b in old[1:])),
+}
+
+
+def make_false(record, lie):
+    """As a line says: a path, where a number is an entry and * each, what is done there, with what;
+    or by the function that it names.
+    """
+    path, _, words = lie.partition(" ")
+    if not words:
+        OTHERS[path](record)
+        return
+    name, _, words = words.partition(" ")
+    _edit(record, path.split("."), lambda old: CHANGES[name](old, words))
+
+
+def _edit(value, path, change):
+    """What is there after a change at a path: records change, of tuples there are others."""
+    if not path:
+        return change(value)
+    if not isinstance(value, tuple):
+        if not hasattr(value, path[0]):  # as the end of a motion of another kind
+            return value
+        setattr(value, path[0], _edit(getattr(value, path[0]), path[1:], change))
+        return value
+    places = range(len(value)) if path[0] == "*" else [int(path[0]) % max(1, len(value))]
+    return tuple(_edit(x, path[1:], change) if i in places else x for i, x in enumerate(value))
+
+
+def hit(record):
+    """Of the paper's map."""
+    if not hasattr(record, "eta"):
+        return
     phase = lifted(record, between(record.source, F(1, 2))) % TURN
     record.target = F(phase) - F(1, 100), F(phase) + F(1, 100)
 
 
-def moved(box):
-    """A box beside another one, in all but its first variable."""
-    return box[0], *((b, b + (b - a)) for a, b in box[1:])
+def leaves_elsewhere(record):
+    record.cut = record.cut[:-1] + "012"[int(record.cut[-1]) - 1]
 
 
-def _swap(field):
-    return put(field, lambda old: (old[1], old[0], *old[2:]))
+def more_fixed_points(record):
+    record.sentence = record.sentence.replace("f^n has ", "f^n has 9")
 
 
-def _of(field, change):
-    """Change a record inside of a record."""
-    return lambda record: change(getattr(record, field))
+def other_words(record):
+    record.words = ("0", "00", "1")[: len(record.words)]
 
 
-def _first_box_off(record):
-    (phases, velocities), *others = record.boxes
-    record.boxes = (off(phases), velocities), *others
-
-
-def _narrow(record):
-    """Cut velocities of rectangles, so that images leave them."""
-    sets = record.strips
-    if hasattr(sets, "velocities"):
-        sets.velocities = F(-9, 20), F(-2, 5)
-    else:
-        (phases, (low, high)), second = sets.after_first
-        sets.after_first = (phases, (low, low + (high - low) / 8)), second
-
-
-def _much_growth(record):
+def much_growth(record):
     record.growth = F(5000)
     middle = F(float(ball(record.growth).log()))
     record.entropy = middle - F(1, 10**9), middle + F(1, 10**9)
 
 
-def _cells(change):
-    """Change the cells of a full shift, where there are some."""
-    return put("cells", lambda old: old and change(old))
+def jumps_or_not(record):
+    record.landing = None if record.landing else (F(9), F(10))
 
 
-def _derivative(record):
-    (p, q), rows = record.matrix
-    record.matrix = (off(p), q), rows
+def other_orbit(record):
+    record.orbit = record.orbit[1:] or ((F("1.1"), F("1.18")),)
 
 
-def _image(record):
-    record.values = off(record.values[0]), record.values[1]
+def narrow(record):
+    """Cut velocities of rectangles, so that images leave them."""
+    for shoe in getattr(record, "shoes", [record]):
+        sets = shoe.strips
+        if hasattr(sets, "velocities"):
+            sets.velocities = F(-9, 20), F(-2, 5)
+        else:
+            (phases, (low, high)), second = sets.after_first
+            sets.after_first = (phases, (low, low + (high - low) / 8)), second
 
 
-def _speed(record):
-    record.values = record.values[0], off(record.values[1])
+def across_off(record):
+    _edit(record, ["box", record.axis], off)
 
 
-def _edge(record):
-    (phase, velocity), right = record.edges
-    record.edges = (off(phase), velocity), right
-
-
-def _window(record):
-    n, first, last = record.above[0]
-    record.above = ((n, off(first), off(last)), *record.above[1:])
-
-
-def _local(record):
-    record.local.target.inverse = tuple(
-        tuple(x / 50 for x in row) for row in record.local.target.inverse
-    )
-
-
-def _never_disjoint(record):
+def sets_meet(record):
     graph = getattr(record, "graph", record)
     if len(graph.nodes) > 1:
         graph.nodes = (graph.nodes[0], deepcopy(graph.nodes[0]))
         graph.nodes[1].centre = tuple(x + F(1, 10**6) for x in graph.nodes[1].centre)
 
 
-LINEAR = [put("ratios", (F(7, 10), F(4, 5))), put("ratios", (F(1, 3), F(1, 4)))]
-FALSE = {
-    "Impact": [offs("slope"), offs("image")],
-    "SlopeRange": [offs("pieces"), offs("images"), offs("slopes"), _swap("points")],
-    "Avoids": [_target_hit],
-    "ImageArc": [offs("low"), offs("high"), put("domain", (F("1.11"), F("1.3")))],
-    "Itinerary": [offs("orbit"), put("cut", lambda old: old[:-1] + "012"[int(old[-1]) - 1])],
-    "InvariantSet": [
-        put("interval", (F("1.11"), F("1.3"))),
-        _of("shift", put("factors", "01")),
-        put("sentence", lambda old: old.replace("f^n has ", "f^n has 9")),
-    ],
-    "Repeller": [
-        offs("dimension"),
-        offs("slopes"),
-        offs("growth"),
-        put("words", lambda old: ("0", "00", "1")[: len(old)]),
-    ],
-    "StayingDimension": [
-        _of("repeller", offs("dimension")),
-        _of("staying", _of("shift", put("factors", "11"))),
-    ],
-    "ThinShift": [
-        offs("rate"),
-        _of("repeller", offs("dimension")),
-        _of("escape", offs("growth")),
-        _of("escape", put("exponent", F(9, 10))),
-        _of("shift", put("region", ((F("1.3"), F("1.5")),))),
-    ],
-    "MoranRoot": [offs("root"), put("ratios", (F(1, 9), F(1, 8)))],
-    "NoGap": [put("ratios", (F(1, 4), F(1, 3)))],
-    "Digits": [put("readings", (False, True)), put("printed", "0.46"), offs("value")],
-    "ExactMeasure": LINEAR,
-    "LinearDimension": [*LINEAR, offs("measure"), offs("root")],
-    "Excess": [*LINEAR, offs("root"), put("level", 0), put("interval", (F(0), F(99)))],
-    "ShortGap": [*LINEAR, put("ratios", (F(1, 4), F(1, 4)))],
-    "Uncovered": LINEAR,
-    "Branch": [
-        put("windows", lambda old: tuple((low + 60, high + 60) for low, high in old)),
-        put("windows", lambda old: tuple((low, (low + high) / 2) for low, high in old)),
-    ],
-    "EntropyBound": [
-        offs("entropy"),
-        _much_growth,
-        _swap("branches"),
-        _cells(lambda old: tuple((low + F(1, 10), high + F(1, 10)) for low, high in old)),
-        _cells(lambda old: (old[0], (old[1][0], sum(old[1]) / 2))),
-        _cells(lambda old: old[::-1]),
-    ],
-    "Grazing": [
-        *map(offs, ("phases", "time", "root")),
-        put("turn", lambda old: old + 2),
-        put("below", lambda old: not old),
-        put("landing", lambda old: None if old else (F(9), F(10))),
-    ],
-    "Pieces": [
-        put("arcs", lambda old: old[:2] + old[3:]),
-        put("arcs", lambda old: old[2:]),
-        put("region", lambda old: (old[0] + F(1, 4), old[1] - F(1, 4))),
-    ],
-    "EntropyRange": [
-        offs("entropy"),
-        put("growth", lambda old: old - 1),
-        _of("lower", put("growth", lambda old: old + 1)),
-        _of("pieces", put("arcs", lambda old: old[:2] + old[3:])),
-    ],
-    "Expansion": [
-        put("rate", F(2)),
-        put("rate", F(1)),
-        put("scales", lambda old: (F(1),) * len(old)),
-        put("scales", lambda old: old[1:]),
-    ],
-    "Between": [
-        put("full", lambda old: old + 1),
-        put("images", lambda old: tuple((off(low), off(high)) for low, high in old)),
-        put("grazes", lambda old: old[::-1]),
-    ],
-    "Cycles": [
-        put("counts", lambda old: ((old[0][0] + 1, old[0][1] + 1), *old[1:])),
-        put("words", lambda old: (*old, old[0])),
-        put("words", lambda old: tuple((len(old[0]) + 50, *w[1:]) for w in old)),
-        _of("expansion", put("rate", F(2))),
-    ],
-    "Coding": [
-        _of("expansion", put("rate", F(2))),
-        _of("entropy", put("growth", lambda old: old - 1)),
-        lambda record: put("arcs", lambda old: old[2:])(record.expansion.pieces),
-    ],
-    "StayingSet": [
-        put("cells", lambda old: old[::-1]),
-        offs("slopes"),
-        offs("cells"),
-        put("cells", lambda old: old[:-1]),
-        put("region", ((F("1.11"), F("1.32")),)),
-        put("onward", lambda old: (old[0][:-1], *old[1:])),
-        put("expansion", F(1)),
-        put("growth", (F(3), F(4))),
-        put("fixed_points", (2, 4, 8, 16, 32, 64, 128, 250)),
-        put("whole", lambda old: not old),
-        put("orbit", lambda old: old[1:] or ((F("1.1"), F("1.18")),)),
-    ],
-    "Separation": [
-        *map(offs, ("start", "phase", "time", "arrival", "speed")),
-        put("turns", 1),
-    ],
-    "Lands": [put("phases", (F("1.0"), F("1.5")))],
-    "NeverImpacts": [put("phases", (F("1.2"), F("1.25"))), put("phases", (F("1.5708"),) * 2)],
-    "Absorption": [
-        put("rest", lambda old: tuple(x / 100 for x in old)),
-        put("rest", lambda old: old[:1]),  # of so few impacts too much is open
-        put("within", (((F("1.57"), F("1.58")), 3),)),
-        _of("sink", put("measure", F(2))),
-        _of("sink", put("ends", lambda old: ((old[0][0] + F(1, 10**5), old[0][1]), old[1]))),
-        _of("sink", put("ends", lambda old: (old[0], (old[1][0], old[1][1] - F(1, 10**5))))),
-    ],
-    "Sink": [put("measure", F(2)), _of("never", put("phases", (F("1.2"), F("1.25"))))],
-    "LongTransients": [
-        put("inside", (F("1.3"), F("1.34"))),
-        put("inside", (F(1), F("1.1"))),
-        put("steps", 0),
-        _of("shift", offs("slopes")),
-    ],
-    "TouchingFamily": [put("phases", (F("1.2"), F("1.25")))],
-    "SuperstableMotion": [
-        *(_of("arc", offs(name)) for name in ("phase", "time", "arrival", "speed")),
-        put("rest", lambda old: old - F(1, 2)),
-        put("boxes", lambda old: (tuple((low - 1, high + 1) for low, high in old[0]), *old[1:])),
-        put("boxes", lambda old: (*old, old[0])),
-        put("boxes", lambda old: old[:1]),
-        put("epsilons", lambda old: (old[0], F(9, 10))),
-        _first_box_off,
-    ],
-    "Passes": [
-        put("bounces", lambda old: old + 1),
-        put("epsilon", lambda old: 1 - old),
-        _of("arc", offs("speed")),
-    ],
-    "Border": [
-        put("rests", lambda old: SimpleNamespace(**{**vars(old), "epsilons": (F(2, 5),) * 2})),
-        put("passes", lambda old: SimpleNamespace(**{**vars(old), "epsilon": F(9, 25)})),
-        put("passes", lambda old: SimpleNamespace(**{**vars(old), "bounces": old.bounces + 1})),
-        _of("motion", put("epsilons", (F(0), F(9, 10)))),
-    ],
-    "StableCycle": [
-        _first_box_off,
-        put("boxes", lambda old: old[:1] * 2),
-        put("epsilon", F(1, 2)),
-    ],
-    "TwoAttractors": [
-        put("cycles", lambda old: (*old[:2], *old[3:])),
-        put("cycles", lambda old: old[:-1]),
-        _of("motion", put("epsilons", (F(0), F(29, 100)))),
-        lambda record: [_first_box_off(each) for each in record.cycles],
-    ],
-    "Solution": [
-        offs("multiplier"),
-        offs("acceleration"),
-        offs("phase"),
-        put("early", F(1, 10**6)),
-        put("n", lambda old: old + 1),
-        put("first", lambda old: True),
-    ],
-    "EtaWindows": [
-        put("ends", lambda old: ((off(old[0][0]), old[0][1]), *old[1:])),
-        put("ends", lambda old: old[:2]),
-        put("late", lambda old: old and (old[0], off(old[1]))),
-        put("late", lambda old: old and (off(old[0]), off(old[1]))),
-    ],
-    "NuWindows": [_window, put("below", ())],
-    "Differential": [
-        _image,
-        _speed,
-        _derivative,
-        put("turns", lambda old: tuple(count + 1 for count in old)),
-    ],
-    "Rectangle": [
-        _edge,
-        put("parts", lambda old: old[1:]),
-        lambda record: [_derivative(part) for part in record.parts],
-        lambda record: [_speed(part) for part in record.parts],
-    ],
-    "Horseshoe": [
-        put("margin", F(1, 2)),
-        put("rates", lambda old: (F(99), *old[1:])),
-        put("boxes", lambda old: tuple((phases, (F(-9, 20), F(-2, 5))) for phases, _ in old)),
-    ],
-    "BarredWord": [put("word", (0, 0)), put("short", lambda old: old + 1)],
-    "RectangleHorseshoe": [
-        put("margin", F(1, 2)),
-        put("rates", lambda old: (F(99), *old[1:])),
-        put("rates", lambda old: (old[0], F(1, 10**9), old[2])),
-        put("rates", lambda old: (*old[:2], (F(3), F(1)))),
-        _narrow,
-    ],
-    "HorseshoeFamily": [
-        put("shoes", lambda old: old[1:]),
-        put("shoes", lambda old: (old[0], *old[2:])),
-        put("box", lambda old: (*old[:2], (F(0), F(1, 2)))),
-        lambda record: [put("margin", F(1, 2))(shoe) for shoe in record.shoes],
-        lambda record: [_narrow(shoe) for shoe in record.shoes],
-    ],
-    "GoldenMean": [
-        put("rates", lambda old: (F(9), F(1, 99), old[2])),
-        _of("strips", put("right", (F("1.2"), F("1.22")))),
-    ],
-    "Hyperbolic": [
-        put("grow", F(9)),
-        put("shrink", F(1, 999)),
-        put("rates", lambda old: (F(9), F(1, 99), old[2])),
-    ],
-    "EdgeImage": [offs("image"), put("phase", F("1.2"))],
-    "Equal": [
-        put("right", lambda old: f"({old}) + 1/1000000"),
-        put("left", lambda old: f"2*({old}) + 1"),
-    ],
-    "Series": [put("coefficients", lambda old: (*old[:-1], f"({old[-1]}) + 1/1000"))],
-    "Expressions": [
-        put("expressions", lambda old: ((old[0][0], f"({old[0][1]}) + 1/1000"), *old[1:])),
-        put("expressions", lambda old: (*old[:-1], (old[-1][0], f"2*({old[-1][1]}) + 1"))),
-    ],
-    "Value": [offs("bounds")],
-    "Zero": [
-        offs("bracket"),
-        put("bracket", lambda old: (old[0], old[0])),
-        put("function", lambda old: f"({old})**2 + 1"),
-    ],
-    "UniqueZero": [put("box", lambda old: tuple((b + 10, b + 11) for _, b in old))],
-    "Image": [put("bounds", lambda old: tuple((b + 10, b + 11) for _, b in old))],
-    "Trapped": [
-        put("boxes", lambda old: tuple(((b + 10, b + 11), *rest) for (_, b), *rest in old))
-    ],
-    "NoImpact": [put("box", lambda old: (*old[:-1], (F(-2), F(-2))))],
-    "Pressed": [put("box", lambda old: (*old[:-1], (F(2), F(2))))],
-    "Graze": [
-        put("rises", lambda old: not old),
-        offs("time"),
-        lambda record: offs("box", record.axis)(record),
-    ],
-    "PeriodicOrbit": [
-        put("box", lambda old: tuple((b + 10, b + 11) for _, b in old)),
-        put("period", lambda old: 2 * old),
-        put("turns", lambda old: tuple(x + 1 for x in old)),
-        put("stability", lambda old: "attracting" if old == "a saddle" else "a saddle"),
-        put("stability", "repelling"),
-    ],
-    "PeriodicOrbits": [
-        put("counts", lambda old: (*old[:-1], (old[-1][0], old[-1][1] + 1))),
-        put("counts", lambda old: old[1:]),
-        put("box", lambda old: tuple((a, (a + b) / 2) for a, b in old)),
-    ],
-    "HSet": [put("inverse", lambda old: tuple(tuple(2 * x for x in row) for row in old))],
-    "Covers": [put("orientation", lambda old: -old), _local],
-    "Graph": [_never_disjoint],
-    "Entropy": [put("growth", lambda old: 100 * old)],
-    "Conjugacy": [_never_disjoint],
-    "Theorem": [put("text", "")],
-    "StableSingles": [
-        put("stable", lambda old: () if old else (1,)),
-        put("stable", lambda old: (*old, 3)),
-        put("epsilon", F(9, 10)),
-        put("nu", F(-1, 100)),
-    ],
-    "AllStick": [_of("arc", offs("arrival")), _of("arc", put("nu", F(1)))],
-    "AtRest": [put("nu", F(1)), put("nu", F("-0.2"))],
-    "Leaves": [put("nu", F("0.01"))],
-    "NeverSticks": [put("nu", F(1)), put("eta", F("0.01"))],
-    "OnlyTouches": [put("nu", F(1)), put("eta", F("0.9"))],
-    "FlightsEnd": [put("nu", F("-0.2"))],
-    "ComesToRest": [put("nu", F(1)), put("nu", F("-0.2")), put("epsilon", F("0.999"))],
-    "ReturningMotion": [
-        put("cells", lambda old: tuple(off(x) for x in old)),
-        put("cells", lambda old: old[:-1]),
-        put("contraction", F(1)),
-        put("contraction", F(1, 10**6)),
-        put("beyond", lambda old: (old[0], old[0] + F(1, 10**4))),
-        _of("arc", offs("phase")),
-    ],
-    "SticksOnce": [
-        put("cells", lambda old: tuple(off(x) for x in old) or (off((F(1), F(2))),)),
-        _of("end", offs("cells")),
-        _of("arc", offs("phase")),
-    ],
-    "StickingMotion": [
-        put("landing", None),
-        put("cells", lambda old: tuple(off(x) for x in old)),
-        put("cells", lambda old: old[:-1]),
-        _of("arc", offs("phase")),
-    ],
-    "Arc": [
-        put("pieces", lambda old: old[::2] if len(old) > 2 else ()),
-        put("pieces", lambda old: tuple((moved(box), slope) for box, slope in old)),
-        put("points", lambda old: tuple((x, *map(off, rest)) for x, *rest in old)),
-    ],
-    "GrazingCurve": [
-        put("n", 1),
-        put("epsilon", F(1, 1000)),
-        put("side", 1),
-        offs("amplitudes", 0),
-        _of("arc", put("pieces", lambda old: tuple((moved(box), slope) for box, slope in old))),
-    ],
-    "Meeting": [
-        put("other", "flip"),
-        put("rising", lambda old: not old),
-        put("box", lambda old: (off(old[0]), *old[1:])),
-        offs("amplitude"),
-    ],
-    "StableOrbit": [
-        offs("cells"),
-        put("contraction", (F(1, 3), F(1, 2))),
-        put("contraction", (F(1), F(2))),
-    ],
+def stable_or_not(record):
+    record.stable = () if record.stable else (1,)
+
+
+OTHERS = {
+    each.__name__: each
+    for each in (
+        *(hit, leaves_elsewhere, more_fixed_points, other_words, much_growth, jumps_or_not),
+        *(other_orbit, narrow, across_off, sets_meet, stable_or_not),
+    )
+}
+LIES = """
+Impact: slope off; image off
+SlopeRange: pieces off; images off; slopes off; points swap
+Avoids: hit
+ImageArc: low off; high off; domain = 1.11 1.3
+Itinerary: orbit off; leaves_elsewhere
+InvariantSet: interval = 1.11 1.3; shift.factors text 01; more_fixed_points
+Repeller: dimension off; slopes off; growth off; other_words
+StayingDimension: repeller.dimension off; staying.shift.factors text 11
+ThinShift: rate off; repeller.dimension off; escape.growth off; escape.exponent = 9/10
+ThinShift: shift.region = [["1.3", "1.5"]]
+MoranRoot: root off; ratios = 1/9 1/8
+NoGap: ratios = 1/4 1/3
+Digits: readings = [false, true]; printed text 0.46; value off
+ExactMeasure: ratios = 7/10 4/5; ratios = 1/3 1/4
+LinearDimension: ratios = 7/10 4/5; ratios = 1/3 1/4; measure off; root off
+Excess: ratios = 7/10 4/5; ratios = 1/3 1/4; root off; level = 0; interval = 0 99
+ShortGap: ratios = 7/10 4/5; ratios = 1/3 1/4; ratios = 1/4 1/4
+Uncovered: ratios = 7/10 4/5; ratios = 1/3 1/4
+Branch: windows.*.* + 60; windows.* half
+EntropyBound: entropy off; much_growth; branches swap
+EntropyBound: cells.*.* + 1/10; cells.1 half; cells reverse
+Grazing: phases off; time off; root off; turn + 2; below not; jumps_or_not
+Pieces: arcs drop 2; arcs from 2; region.0 + 1/4
+EntropyRange: entropy off; growth + -1; lower.growth + 1; pieces.arcs drop 2
+Between: full + 1; images off; grazes reverse
+Cycles: counts.0.* + 1; words twice; words.*.0 + 50; expansion.rate = 2
+Cycles: expansion.rate = 1; expansion.scales.* = 1; expansion.scales from 1
+Coding: expansion.rate = 2; entropy.growth + -1; expansion.pieces.arcs from 2
+StayingSet: cells reverse; slopes off; cells off; cells drop -1; region = [["1.11", "1.32"]]
+StayingSet: onward.0 drop -1; expansion = 1; growth = 3 4; whole not; other_orbit
+StayingSet: fixed_points = 2 4 8 16 32 64 128 250
+Separation: start off; phase off; time off; arrival off; speed off; turns = 1
+Lands: phases = 1.0 1.5
+NeverImpacts: phases = 1.2 1.25; phases = 1.5708 1.5708
+Absorption: rest.* * 1/100; rest keep 1; within = [[["1.57", "1.58"], 3]]
+Absorption: sink.measure = 2; sink.ends.0.0 + 1/100000; sink.ends.1.1 + -1/100000
+Sink: measure = 2; never.phases = 1.2 1.25
+LongTransients: inside = 1.3 1.34; inside = 1 1.1; steps = 0; shift.slopes off
+TouchingFamily: phases = 1.2 1.25
+SuperstableMotion: arc.phase off; arc.time off; arc.arrival off; arc.speed off; rest + -1/2
+SuperstableMotion: boxes.0.* wide; boxes twice; boxes keep 1; epsilons.1 = 9/10; boxes.0.0 off
+Passes: bounces + 1; epsilon 1-; arc.speed off
+Border: rests.epsilons = 2/5 2/5; passes.epsilon = 9/25; passes.bounces + 1
+Border: motion.epsilons = 0 9/10
+StableCycle: boxes.0.0 off; boxes alike; boxes keep 1; epsilon = 1/2
+TwoAttractors: cycles drop 2; cycles drop -1; motion.epsilons = 0 29/100; cycles.*.boxes.0.0 off
+Solution: multiplier off; acceleration off; phase off; early = 1/1000000; n + 1; first = true
+EtaWindows: ends.0.0 off; ends keep 2; late.1 off; late.0 off
+NuWindows: above.0 later; below = []
+Differential: values.0 off; values.1 off; matrix.0.0 off; matrix reverse; turns.* + 1
+Rectangle: edges.0.0 off; edges reverse; parts from 1; parts.*.matrix.0.0 off; parts.*.values.1 off
+Horseshoe: margin + 1/10; margin = 1/2; rates.0 = 99; boxes.*.1 = -9/20 -2/5
+BarredWord: word keep 1; word = 0 0; short + 1
+RectangleHorseshoe: margin = 1/2; rates.0 = 99; rates.1 = 1/1000000000; rates.2 = 3 1; narrow
+HorseshoeFamily: shoes from 1; shoes drop 1; box.2 = 0 1/2; shoes.*.margin = 1/2; narrow
+GoldenMean: rates.0 = 9; strips.right = 1.2 1.22
+Hyperbolic: grow = 9; shrink = 1/999; rates.0 = 9
+EdgeImage: image off; phase = 1.2
+Equal: right text (...) + 1/1000000; left text 2*(...) + 1
+Series: coefficients.-1 text (...) + 1/1000
+Expressions: expressions.0.1 text (...) + 1/1000; expressions.-1.1 text 2*(...) + 1
+Value: bounds off
+UniqueZero: box.* away
+Image: bounds.* away
+Trapped: boxes.*.0 away
+NoImpact: box.-1 = -2 -2
+Pressed: box.-1 = 2 2
+Graze: rises not; time off; across_off
+PeriodicOrbit: box.* away; period * 2; turns.* + 1
+PeriodicOrbit: stability = attracting; stability = a saddle; stability = repelling
+PeriodicOrbits: counts.-1.1 + 1; counts from 1; box.* half
+HSet: inverse.*.* * 2
+Covers: orientation * -1; local.target.inverse.*.* * 1/50
+Graph: sets_meet
+Entropy: growth * 100
+Conjugacy: sets_meet
+Theorem: text = []
+StableSingles: stable_or_not; stable more 3; epsilon = 9/10; nu = -1/100
+AllStick: arc.arrival off; arc.nu = 1
+AtRest: nu = 1; nu = -0.2
+Leaves: nu = 0.01
+NeverSticks: nu = 1; eta = 0.01
+OnlyTouches: nu = 1; eta = 0.9
+FlightsEnd: nu = -0.2
+ComesToRest: nu = 1; nu = -0.2; epsilon = 0.999
+ReturningMotion: cells off; cells drop -1; contraction = 1; contraction = 1/1000000
+ReturningMotion: beyond.points short; arc.phase off
+SticksOnce: cells off; end.cells off; arc.phase off
+StickingMotion: landing = null; cells off; cells drop -1; arc.phase off
+Arc: pieces odd; pieces.*.0 beside; points.* later
+GrazingCurve: n = 1; epsilon = 1/1000; side = 1; amplitudes.0 off; arc.pieces.*.0 beside
+Meeting: other = flip; rising not; box.0 off; amplitude off
+StableOrbit: cells off; contraction = 1/3 1/2; contraction = 1 2
+"""
+FALSE = {}
+for line in LIES.strip().splitlines():
+    kind, _, told = line.partition(": ")
+    FALSE.setdefault(kind, []).extend(told.split("; "))
+OF_THE_PAPER = {  # lies that are none, or are not looked for, about maps of a file
+    "Avoids": "hit",
+    "BarredWord": "word = 0 0; short + 1",
+    "Differential": "turns.* + 1",
+    "EntropyBound": "branches swap; cells reverse",
+    "Horseshoe": "margin = 1/2; rates.0 = 99",
+    "StableCycle": "epsilon = 1/2",
+    "StayingSet": 'cells drop -1; region = [["1.11", "1.32"]]; whole not; other_orbit',
 }
 
 
@@ -508,17 +345,22 @@ def test_what_is_proved_is_accepted(name):
 
 
 @pytest.mark.parametrize("kind", FALSE)
-def test_what_is_made_false_is_found(kind):
-    records = [record for _, record in true_views() if record.kind == kind]
-    for index, change in enumerate(FALSE[kind]):
-        sample = random.Random(kind).sample(records, min(len(records), 8))
-        assert any(_found(record, change) for record in sample), f"change {index} is not found"
+@pytest.mark.parametrize("of_a_file", [False, True])
+def test_what_is_made_false_is_found(kind, of_a_file):
+    """By each of the judges: of what is about the paper's motion, and about maps of files."""
+    records = [x for _, x in true_views() if x.kind == kind]
+    asked = [x for x in records if is_of_a_file(getattr(x, "base", x)) is of_a_file]
+    sample = random.Random(kind).sample(asked, min(len(asked), 8))
+    sample.sort(key=lambda x: (getattr(x, "period", 0), len(str(x))))  # which are soon judged
+    left_out = OF_THE_PAPER.get(kind, "").split("; ") if of_a_file else ()
+    for lie in FALSE[kind] if sample else ():
+        assert lie in left_out or any(_found(x, lie) for x in sample), f"{lie}: is not found"
 
 
-def _found(record, change):
+def _found(record, lie):
     """Whether a record that is made false is complained about."""
     false = deepcopy(record)
-    change(false)
+    make_false(false, lie)
     return vars(false) != vars(record) and judge(false, random.Random(record.kind))
 
 

@@ -11,7 +11,7 @@ from functools import lru_cache
 from types import SimpleNamespace
 
 from tests.oracles import plastic, restitution
-from tests.oracles.adapter import parameters
+from tests.oracles.judge import parameters
 from tests.oracles.motion import (
     TURN,
     Impact,

@@ -581,37 +581,6 @@ def test_what_comes_next_is_asked(capsys):
     assert "its values are `a` in" in said and "it moves into the wall" in said
 
 
-@pytest.mark.parametrize(
-    ("asked", "told"),
-    [
-        ("orbits:0", "'orbits:0' is no question: ask as in orbits:2"),
-        ("horseshoe:0", "ask as in horseshoe:2"),
-        ("folds:a=1", "ask as in folds:P=A:B,Q=C:D"),
-        ("everything", "horseshoe:2, image:X=A,Y=B:C, "),
-        ("impact:x=1", "impact is asked of systems, not of maps"),
-    ],
-)
-def test_a_question_that_is_none(asked, told, capsys):
-    with pytest.raises(SystemExit, match="2"):
-        main(["--map", "x/2", "--ask", asked])
-    assert told in capsys.readouterr().err
-
-
-@pytest.mark.parametrize(
-    ("arguments", "told"),
-    [
-        (["--seconds", "0"], "some seconds are expected, not 0"),
-        (["--walls", "floor"], "walls are those of a system"),
-        (["--set", "a=2"], "the parameter a is in none of the formulas"),
-        (["--set", "a=2,b=3"], "several are written with spaces between"),
-    ],
-)
-def test_what_is_no_use_is_told(arguments, told, capsys):
-    with pytest.raises(SystemExit, match="2"):
-        main(["--map", "x/2", *arguments])
-    assert told in capsys.readouterr().err
-
-
 def test_branches_of_flows_are_not_followed():
     with pytest.raises(Undecided, match="with a closed form"):
         System.example("van-der-pol").branches(m=("1", "2"))

@@ -10,8 +10,7 @@ from intervals.elementary.binary64.monotone import FUNCTIONS, monotone
 from intervals.elementary.binary64.pair import ulps
 from intervals.elementary.binary64.plane import atan2, hypot
 from intervals.elementary.binary64.realpower import power
-from intervals.elementary.binary64.tangent import tan
-from intervals.elementary.binary64.trigonometric import LIMIT, sincos
+from intervals.elementary.binary64.trigonometric import LIMIT, sincos, tan
 
 __all__ = ["CHUNK", "ERRORS", "LIMIT", "atan2", "hypot", "monotone", "power", "sincos", "tan"]
 

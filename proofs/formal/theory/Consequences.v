@@ -94,6 +94,30 @@ Proof.
   - apply IH. intros; apply I; simpl; auto.
 Qed.
 
+(* What is asked of a set of words, that Theorems 3 and 4 hold of their points. *)
+Record ample (W : word -> Prop) : Prop := {
+  am_limit : forall w, (forall n, exists v, W v /\ forall k, (k <= n)%nat -> w k = v k) -> W w;
+  am_tail : forall n w, W w -> W (tail n w);
+  am_period : forall n, (0 < n)%nat -> exists w j, W w /\ (forall k, w (n + k)%nat = w k) /\
+    forall k, (0 < k < n)%nat -> w (k + j)%nat <> w j;
+  am_avoid : forall T : nat -> word, exists w, W w /\ forall q i, exists j, tail i w j <> T q j;
+  am_dense : exists d, W d /\ forall w n, W w -> exists i, forall k, (k < n)%nat -> tail i d k = w k;
+  am_other : forall w n, W w -> exists v j, W v /\ v j <> w j /\ forall k, (k < n)%nat -> v k = w k
+}.
+
+Lemma ample_all : ample (fun _ => True).
+Proof.
+  split; auto.
+  - intros n n0. exists (fun k => Nat.eqb (k mod n) 0), O. split; [auto|split].
+    + intros k. f_equal. rewrite Nat.add_mod, Nat.mod_same, Nat.add_0_l, Nat.mod_mod; lia.
+    + intros k K. rewrite Nat.add_0_r, (Nat.mod_small k), Nat.mod_0_l by lia. destruct k; [lia|discriminate].
+  - intros T. destruct (avoid T) as [w H]. eauto.
+  - destruct everywhere as [d D]. eauto.
+  - intros w n _. exists (fun k => if Nat.eqb k n then negb (w k) else w k), n. split; [auto|split].
+    + rewrite Nat.eqb_refl. destruct (w n); discriminate.
+    + intros k K. destruct (Nat.eqb_spec k n); auto. lia.
+Qed.
+
 Section Consequences.
 Variable N : R -> R -> Prop.
 Variables A b0 a1 B m M : R.
@@ -101,8 +125,6 @@ Hypothesis order : A < b0 < a1 /\ a1 < B.
 Hypothesis m_gt_1 : 1 < m.
 Hypothesis M_ge_1 : 1 <= M.
 Hypothesis det : forall x y z, N x y -> N x z -> y = z.
-Hypothesis shifted : full_shift N A b0 a1 B m M.
-Notation L := (stays N A B).
 Notation iterate := (iterate N).
 
 Lemma iterate_det n : forall x y z, iterate n x y -> iterate n x z -> y = z.
@@ -113,7 +135,11 @@ Qed.
 
 Section Words.
 Variable X : word -> R.
-Hypothesis X_stays : forall x, L x <-> exists w, x = X w.
+Variable W : word -> Prop.
+Hypothesis W_ample : ample W.
+Variable L : R -> Prop.
+Hypothesis L_X : forall x, L x <-> exists w, W w /\ x = X w.
+Hypothesis X_in : forall w, A <= X w <= B.
 Hypothesis X_inj : forall w w', X w = X w' <-> forall k, w k = w' k.
 Hypothesis X_N : forall w, N (X w) (X (shift w)).
 Hypothesis close : forall n w w', (forall k, (k < n)%nat -> w k = w' k) ->
@@ -121,8 +147,8 @@ Hypothesis close : forall n w w', (forall k, (k < n)%nat -> w k = w' k) ->
 Hypothesis apart : forall n w w', (forall k, (k < n)%nat -> w k = w' k) -> w n <> w' n ->
   (a1 - b0) / M ^ n <= Rabs (X w - X w').
 
-Lemma X_L w : L (X w).
-Proof. apply X_stays. eauto. Qed.
+Lemma X_L w : W w -> L (X w).
+Proof. intros H. apply L_X. eauto. Qed.
 
 Lemma iterate_X n : forall w y, iterate n (X w) y <-> y = X (tail n w).
 Proof.
@@ -148,17 +174,17 @@ Proof.
   apply Rle_pow; lra || lia.
 Qed.
 
-Lemma fixed_points n : (0 < n)%nat -> count L (fun x => iterate n x x) (2 ^ n).
+Lemma fixed_points n : (forall w, W w) -> (0 < n)%nat -> count L (fun x => iterate n x x) (2 ^ n).
 Proof.
-  intros n0. exists (map (fun c => X (rep c n)) (seq 0 (2 ^ n))). split; [|split].
+  intros All n0. exists (map (fun c => X (rep c n)) (seq 0 (2 ^ n))). split; [|split].
   - apply NoDup_map; [apply seq_NoDup|]. intros c d C D E. apply in_seq in C, D.
     apply (digits_inj n); try lia. intros k K. apply X_inj with (k := k) in E.
     unfold rep in E. rewrite Nat.mod_small in E; auto.
   - rewrite map_length. apply seq_length.
-  - intros x. rewrite in_map_iff, X_stays. split.
+  - intros x. rewrite in_map_iff, L_X. split.
     + intros (c & <- & C). split; [eauto|]. apply iterate_X, X_inj. intros k. unfold tail, rep.
       f_equal. rewrite Nat.add_mod, Nat.mod_same, Nat.add_0_l, Nat.mod_mod; lia.
-    + intros [[w ->] F]. apply iterate_X in F. destruct (digits n w) as (c & C & D).
+    + intros [(w & _ & ->) F]. apply iterate_X in F. destruct (digits n w) as (c & C & D).
       exists c. split; [|apply in_seq; lia]. apply X_inj. intros k. unfold rep.
       rewrite D by (apply Nat.mod_upper_bound; lia). symmetry. apply periodic_mod; auto.
       intros j. symmetry. apply X_inj, F.
@@ -166,13 +192,9 @@ Qed.
 
 Lemma least_periods n : (0 < n)%nat -> exists x, L x /\ period N n x.
 Proof.
-  intros n0. set (w := fun k => Nat.eqb (k mod n) 0). exists (X w).
-  split; [apply X_L|]. split; [auto|split].
-  - apply iterate_X, X_inj. intros k. unfold tail, w. f_equal.
-    rewrite Nat.add_mod, Nat.mod_same, Nat.add_0_l, Nat.mod_mod; lia.
-  - intros k K H. apply iterate_X in H. apply X_inj with (k := O) in H. unfold tail, w in H.
-    rewrite Nat.add_0_r, (Nat.mod_small k), Nat.mod_0_l in H by lia.
-    symmetry in H. apply Nat.eqb_eq in H. lia.
+  intros n0. destruct (am_period _ W_ample n n0) as (w & j & Ww & P & D). exists (X w).
+  split; [apply X_L, Ww|split; [auto|split; [apply iterate_X, X_inj; intros k; symmetry; apply P|]]].
+  intros k K H. apply iterate_X in H. apply (D k K). symmetry. apply (proj1 (X_inj _ _) H).
 Qed.
 
 (* The periodic words, and those of the orbits of a sequence: a word without these as a tail. *)
@@ -196,26 +218,26 @@ Qed.
 
 Lemma uncountable (e : nat -> R) :
   exists x, L x /\ nonperiodic N x /\ forall k, ~ same_orbit N x (e k).
-Proof. destruct (avoid (orbits_of e)) as [w H]. exists (X w). split; [apply X_L|apply (avoids_orbits e w H)]. Qed.
+Proof. destruct (am_avoid _ W_ample (orbits_of e)) as (w & Ww & H). exists (X w). split; [apply X_L, Ww|apply (avoids_orbits e w H)]. Qed.
 
 Lemma dense_orbit : exists x, L x /\ forall y eps, L y -> 0 < eps ->
   exists n z, iterate n x z /\ L z /\ Rabs (z - y) < eps.
 Proof.
-  destruct everywhere as [d D]. exists (X d). split; [apply X_L|]. intros y eps Y E.
-  apply X_stays in Y. destruct Y as [w ->]. destruct (vanishing m (B - A) eps) as [n V]; try lra.
-  destruct (D w n) as [i I]. exists i, (X (tail i d)).
-  split; [apply iterate_X; auto|split; [apply X_L|]]. pose proof (close n _ _ I). lra.
+  destruct (am_dense _ W_ample) as (d & Wd & D). exists (X d). split; [apply X_L, Wd|]. intros y eps Y E.
+  apply L_X in Y. destruct Y as (w & Ww & ->). destruct (vanishing m (B - A) eps) as [n V]; try lra.
+  destruct (D w n Ww) as [i I]. exists i, (X (tail i d)).
+  split; [apply iterate_X; auto|split; [apply X_L, am_tail; auto|]]. pose proof (close n _ _ I). lra.
 Qed.
 
 Lemma closed : closed_set L.
 Proof.
   intros z Z. apply NNPP. intros H.
-  assert (near : forall e, 0 < e -> exists w, Rabs (X w - z) < e).
+  assert (near : forall e, 0 < e -> exists w, W w /\ Rabs (X w - z) < e).
   { intros e E. apply NNPP. intros G. apply H. exists (mkposreal e E). intros y Y S. apply G.
-    apply X_stays in S. destruct S as [w ->]. eauto. }
+    apply L_X in S. destruct S as (w & Ww & ->). eauto. }
   set (P := fun n w => Rabs (X w - z) < gap n / 2). set (w := fun n => letter (P n) n).
   assert (agree : forall n v, P n v -> forall k, (k <= n)%nat -> w k = v k).
-  { intros n v V k K. destruct (near (gap k / 2)) as [u U]; [pose proof (gap_pos k); lra|].
+  { intros n v V k K. destruct (near (gap k / 2)) as (u & _ & U); [pose proof (gap_pos k); lra|].
     assert (same : forall j a b, P j a -> P j b -> forall i, (i <= j)%nat -> a i = b i).
     { intros j a b Pa Pb. apply share. unfold P in Pa, Pb.
       replace (X a - X b) with ((X a - z) - (X b - z)) by ring.
@@ -225,10 +247,13 @@ Proof.
       apply Rmult_le_compat_r; [lra|]. apply Rmult_le_compat_l; [lra|].
       apply Rinv_le_contravar; [apply pow_lt; lra|]. apply Rle_pow; lra || lia. }
     apply (letter_spec (P k)); auto. intros t Pt. apply (same k); auto. }
-  apply Z, X_stays. exists w. apply NNPP. intros D.
+  assert (Ww : W w).
+  { apply (am_limit _ W_ample). intros n. destruct (near (gap n / 2)) as (v & Wv & V); [pose proof (gap_pos n); lra|].
+    exists v. split; [exact Wv|apply (agree n v V)]. }
+  apply Z, L_X. exists w. split; [exact Ww|]. apply NNPP. intros D.
   assert (D' : 0 < Rabs (z - X w)) by (apply Rabs_pos_lt; lra).
   destruct (vanishing m (B - A) (Rabs (z - X w) / 2)) as [n V]; try lra.
-  destruct (near (Rmin (gap n / 2) (Rabs (z - X w) / 2))) as [v G].
+  destruct (near (Rmin (gap n / 2) (Rabs (z - X w) / 2))) as (v & _ & G).
   { pose proof (gap_pos n). apply Rmin_pos; lra. }
   pose proof (Rmin_l (gap n / 2) (Rabs (z - X w) / 2)).
   pose proof (Rmin_r (gap n / 2) (Rabs (z - X w) / 2)).
@@ -241,11 +266,10 @@ Qed.
 
 Lemma perfect x eps : L x -> 0 < eps -> exists y, L y /\ y <> x /\ Rabs (y - x) < eps.
 Proof.
-  intros Lx E. apply X_stays in Lx. destruct Lx as [w ->].
-  destruct (vanishing m (B - A) eps) as [n V]; try lra.
-  exists (X (fun k => if Nat.eqb k n then negb (w k) else w k)). split; [apply X_L|split].
-  - intros H. apply X_inj with (k := n) in H. rewrite Nat.eqb_refl in H. destruct (w n); discriminate.
-  - eapply Rle_lt_trans; [apply (close n)|apply V]. intros k K. destruct (Nat.eqb_spec k n); auto. lia.
+  intros Lx E. apply L_X in Lx. destruct Lx as (w & Ww & ->). destruct (vanishing m (B - A) eps) as [n V]; try lra.
+  destruct (am_other _ W_ample w n Ww) as (v & j & Wv & D & S). exists (X v). split; [apply X_L, Wv|split].
+  - intros H. apply D, (proj1 (X_inj _ _) H).
+  - eapply Rle_lt_trans; [apply (close n), S|apply V].
 Qed.
 
 Lemma no_interval x y : L x -> L y -> x < y -> exists z, x < z < y /\ ~ L z.
@@ -254,7 +278,7 @@ Proof.
   assert (all : forall z, x <= z <= y -> L z).
   { intros z Z. destruct (Req_dec z x) as [->|]; auto. destruct (Req_dec z y) as [->|]; auto.
     apply NNPP. intros G. apply H. exists z. split; [lra|auto]. }
-  apply X_stays in Lx. destruct Lx as [w Ex].
+  apply L_X in Lx. destruct Lx as (w & _ & Ex).
   assert (step : forall n z, x <= z <= y -> forall v, z = X v -> forall k, (k <= n)%nat -> w k = v k).
   { intros n. pose proof (gap_pos n) as gp.
     assert (G : forall i z, x <= z <= y -> z <= x + INR i * (gap n / 2) ->
@@ -265,7 +289,7 @@ Proof.
         assert (Z' : x <= z' <= z /\ z - gap n / 2 <= z' /\ z' <= x + INR i * (gap n / 2)).
         { pose proof (Rmult_le_pos (INR i) (gap n / 2) (pos_INR i) ltac:(lra)).
           unfold z', Rmax. destruct Rle_dec; lra. }
-        destruct (proj1 (X_stays z') (all z' ltac:(lra))) as [u Eu]. intros k K'.
+        destruct (proj1 (L_X z') (all z' ltac:(lra))) as (u & _ & Eu). intros k K'.
         rewrite (IH z' ltac:(lra) ltac:(lra) u Eu k K'). apply (share n); auto.
         rewrite <- Eu, <- Ev, Rabs_minus_sym, Rabs_pos_eq; lra. }
     intros z Z. assert (H0 : 0 < gap n / 2 / (y - x)) by (apply Rdiv_lt_0_compat; lra).
@@ -274,23 +298,17 @@ Proof.
     replace (/ INR q * (INR q * (y - x))) with (y - x) in Q by (field; lra).
     replace (gap n / 2 / (y - x) * (INR q * (y - x))) with (INR q * (gap n / 2)) in Q
       by (field; lra). lra. }
-  apply X_stays in Ly. destruct Ly as [v Ey].
+  apply L_X in Ly. destruct Ly as (v & _ & Ey).
   assert (x = y); [|lra]. rewrite Ex, Ey. apply X_inj. intros k. apply (step k y); auto. lra.
 Qed.
 
-Lemma chaos_X : chaos N L.
-Proof.
-  split; [apply fixed_points|split; [apply least_periods|split; [apply uncountable|]]].
-  apply dense_orbit.
-Qed.
+Lemma rich_X : rich N L.
+Proof. split; [apply least_periods|split; [apply uncountable|apply dense_orbit]]. Qed.
 
-Lemma cantor_X : (forall w, A <= X w <= B) -> cantor_set L.
+Lemma cantor_X : cantor_set L.
 Proof.
-  intros In. split; [exists (X (fun _ => true)); apply X_L|split; [|split]].
-  - apply compact_P5; [apply closed|]. exists A, B. intros x Lx. apply X_stays in Lx.
-    destruct Lx as [w ->]. auto.
-  - apply perfect.
-  - apply no_interval.
+  split; [destruct (am_period _ W_ample 1) as (w & _ & Ww & _); [lia|exists (X w); apply X_L, Ww]|split; [|split; [apply perfect|apply no_interval]]].
+  apply compact_P5; [apply closed|]. exists A, B. intros x Lx. apply L_X in Lx. destruct Lx as (w & _ & ->). auto.
 Qed.
 
 (* 2^n intervals of length 2 (B - A) / m^n cover the set. *)
@@ -301,7 +319,7 @@ Proof.
   exists (map (fun c => (X (rep c n) - d, X (rep c n) + d)) (seq 0 (2 ^ n))). split; [|split].
   - intros i H. apply in_map_iff in H. destruct H as (c & <- & _). simpl.
     assert (0 < d) by (apply Rdiv_lt_0_compat, pow_lt; lra). lra.
-  - intros x Lx. apply X_stays in Lx. destruct Lx as [w ->]. destruct (digits n w) as (c & C & D).
+  - intros x Lx. apply L_X in Lx. destruct Lx as (w & _ & ->). destruct (digits n w) as (c & C & D).
     exists (X (rep c n) - d, X (rep c n) + d). split; [apply in_map_iff; exists c; split; auto;
       apply in_seq; lia|]. simpl. apply Rcomplements.Rabs_le_between', close. intros k K.
     unfold rep. rewrite Nat.mod_small, D; auto.
@@ -316,24 +334,40 @@ Proof.
 Qed.
 End Words.
 
-Lemma in_I i x : In_ A b0 a1 B i x -> A <= x <= B.
-Proof. destruct i; unfold In_; lra. Qed.
+(* What a full shift gives of the points of its words, and of all points that stay. *)
+Lemma shift_words : full_shift N A b0 a1 B m M -> exists X, (forall x, stays N A B x <-> exists w, True /\ x = X w) /\
+  (forall x w, itinerary N A b0 a1 B x w <-> x = X w) /\ (forall w, A <= X w <= B) /\
+  (forall w w', X w = X w' <-> forall k, w k = w' k) /\ (forall w, N (X w) (X (shift w))) /\
+  (forall n w w', (forall k, (k < n)%nat -> w k = w' k) -> Rabs (X w - X w') <= (B - A) / m ^ n) /\
+  (forall n w w', (forall k, (k < n)%nat -> w k = w' k) -> w n <> w' n -> (a1 - b0) / M ^ n <= Rabs (X w - X w')).
+Proof.
+  intros (X & It & S & I & Nx & C & D). exists X. split; [|split; [exact It|split; [|auto]]].
+  - intros x. rewrite S. split; [intros (w & E)|intros (w & _ & E)]; eauto.
+  - intros w. destruct (proj2 (It _ _) eq_refl : itinerary N A b0 a1 B (X w) w) as (u & <- & H).
+    destruct (H O) as [H0 _]. unfold In_ in H0. destruct (w O); lra.
+Qed.
+
+Hypothesis shifted : full_shift N A b0 a1 B m M.
+Notation L := (stays N A B).
 
 (* Theorem 3 of the paper. *)
 Theorem chaos_theorem : chaos N L.
-Proof. destruct shifted as (X & _ & S & I & Nx & C & D). apply (chaos_X X); auto. Qed.
+Proof.
+  destruct (shift_words shifted) as (X & S & _ & In & I & Nx & C & D).
+  split; [intros n n0; apply fixed_points with (X := X) (W := fun _ => True)|
+    apply rich_X with (X := X) (W := fun _ => True)]; auto using ample_all.
+Qed.
 
 (* Theorem 4 of the paper. *)
 Theorem cantor_theorem : cantor_set L.
 Proof.
-  destruct shifted as (X & It & S & I & Nx & C & D). apply (cantor_X X); auto.
-  intros w. destruct (proj2 (It _ _) eq_refl : itinerary N A b0 a1 B (X w) w) as (u & <- & H).
-  apply (in_I _ _ (proj1 (H O))).
+  destruct (shift_words shifted) as (X & S & _ & In & I & Nx & C & D).
+  apply cantor_X with (X := X) (W := fun _ => True); auto using ample_all.
 Qed.
 
 (* Claim H10: slopes above 2 leave nothing of positive length. *)
 Theorem null_theorem : 2 < m -> null L.
-Proof. destruct shifted as (X & _ & S & I & Nx & C & D). apply (null_X X); auto. Qed.
+Proof. destruct (shift_words shifted) as (X & S & _ & _ & _ & _ & C & _). apply null_X with (X := X) (W := fun _ => True); auto. Qed.
 End Consequences.
 
 Lemma null_part (L L' : R -> Prop) : (forall x, L x -> L' x) -> null L' -> null L.

@@ -1,7 +1,7 @@
 (* From numeric facts on two branches and on the gap between them to the horseshoe. No numbers. *)
 From Coq Require Import Reals ZArith Psatz Lia.
 From Coquelicot Require Import Coquelicot.
-From Oscillator Require Import Impact Calculus Flight Shift.
+From Oscillator Require Import Impact Rebounds Restitution Calculus Flight Shift.
 Open Scope R_scope.
 
 Section Corrected.
@@ -62,21 +62,8 @@ Lemma branch_regular : regular a b.
 Proof.
   split; intros phi P.
   - apply (branch_time side eta nu eta_pos _ _ _ _ _ Br phi P).
-  - destruct (branch_time side eta nu eta_pos _ _ _ _ _ Br phi P). destruct Br as [_ _ _ F _].
-    apply F; lra.
+  - apply (branch_falls side eta nu _ _ _ _ _ Br phi _ P). destruct (branch_time side eta nu eta_pos _ _ _ _ _ Br phi P). lra.
   - apply (branch_derivative side eta nu eta_pos a b T u v Br phi P).
-Qed.
-
-(* A sharper bracket of the impact time, on a piece; s and t may depend on the phase. *)
-Lemma bracket p q (s t : R -> R) : a <= p /\ q <= b ->
-  (forall phi, p <= phi <= q -> u <= s phi <= v /\ u <= t phi <= v) ->
-  (forall phi, p <= phi <= q -> 0 < gap phi (s phi)) ->
-  (forall phi, p <= phi <= q -> gap phi (t phi) < 0) ->
-  forall phi, p <= phi <= q -> s phi < impact_time phi < t phi.
-Proof.
-  intros O W G H phi P. specialize (W phi P).
-  destruct (branch_time side eta nu eta_pos _ _ _ _ _ Br phi ltac:(lra)) as [I _].
-  apply (branch_bracket side eta nu eta_pos _ _ _ _ _ Br phi); auto; lra.
 Qed.
 
 (* Bounds on f' on a piece [p, q], where the impact is at z + r (phi - p) up to d. *)
@@ -90,8 +77,7 @@ Lemma piece p q z r d m M : a <= p /\ q <= b ->
 Proof.
   intros O W D G H S phi P.
   assert (B : z + r * (phi - p) - d < impact_time phi < z + r * (phi - p) + d).
-  { apply (bracket p q (fun x => z + r * (x - p) - d) (fun x => z + r * (x - p) + d)); auto.
-    intros x X. specialize (W x X). lra. }
+  { specialize (W phi P). apply (branch_bracket side eta nu eta_pos _ _ _ _ _ Br); auto; lra. }
   unfold rate. replace (impact_time phi)
     with (z + r * (phi - p) + (impact_time phi - (z + r * (phi - p)))) by ring.
   apply S; auto. lra.
@@ -126,7 +112,7 @@ Proof.
     apply (ex_derive_minus lift (fun p => p)); [eexists; apply lift_derive; auto | apply ex_derive_id]. }
   assert (Z : gap_t side eta nu phi (impact_time phi) <> 0).
   { pose proof (re_fall _ _ Re phi ltac:(lra)). lra. }
-  unfold rate, Flight.slope, gap_t in *. auto_derive. repeat split; auto.
+  unfold rate, Flight.slope, gap_t, height_t, kick in *. auto_derive. repeat split; auto.
 Qed.
 
 (* In lap k of the circle: f is the lift less k turns. *)
@@ -315,6 +301,7 @@ Lemma shift_hypotheses : 0 < M /\ (forall i, s i = 1 \/ s i = -1) /\
   (forall i x y, In_ A b0 a1 B i x -> (next x y <-> y = f x)) /\
   (forall i x y, In_ A b0 a1 B i x -> In_ A b0 a1 B i y -> x <= y ->
     m * (y - x) <= s i * (f y - f x) <= M * (y - x)) /\
+  (forall i x, In_ A b0 a1 B i x -> continuity_pt f x) /\
   (forall i y, A <= y <= B -> exists x, In_ A b0 a1 B i x /\ f x = y).
 Proof.
   destruct (covers_interval _ _ Re0 _ _ _ _ _ Mo0 _ _ _ Co0 ltac:(lra)) as (P0 & Q0 & R0 & S0).
@@ -322,7 +309,9 @@ Proof.
   split. { destruct Mo0 as [O _ _ Bo]. specialize (Bo A ltac:(lra)). lra. }
   split. { intros [|]; [apply Mo1 | apply Mo0]. }
   split. { intros [|] x y X; [apply (locally_singleton _ _ (P1 x X)) | apply (locally_singleton _ _ (P0 x X))]. }
-  split; intros [|]; auto.
+  split; [intros [|]; auto|split; [|intros [|]; auto]].
+  intros i x X. apply continuity_pt_filterlim, (ex_derive_continuous (K := R_AbsRing) (V := R_NormedModule)).
+  destruct i; [apply (Q1 x X)|apply (Q0 x X)].
 Qed.
 
 Theorem two_preimages c d : A <= c -> c < d -> d <= B ->
@@ -330,14 +319,14 @@ Theorem two_preimages c d : A <= c -> c < d -> d <= B ->
     forall x, A <= x <= B ->
     ((exists y, next x y /\ c <= y <= d) <-> l0 <= x <= r0 \/ l1 <= x <= r1).
 Proof.
-  destruct shift_hypotheses as (M0 & Si & Nf & Ex & Co).
+  destruct shift_hypotheses as (M0 & Si & Nf & Ex & Sm & Co).
   apply (preimages next A b0 a1 B f s m M); auto.
 Qed.
 
 Theorem corrected : 1 < m -> (forall phi, b0 < phi < a1 -> exists psi, next phi psi) ->
   horseshoe next A b0 a1 B s0 s1 m M.
 Proof.
-  intros m1 Meets. destruct shift_hypotheses as (M0 & Si & Nf & Ex & Co).
+  intros m1 Meets. destruct shift_hypotheses as (M0 & Si & Nf & Ex & Sm & Co).
   split; [|split; [apply (cylinder_theorem next A b0 a1 B f s m M) |
     apply (shift_theorem next A b0 a1 B f s m M)]; auto].
   destruct (covers_interval _ _ Re0 _ _ _ _ _ Mo0 _ _ _ Co0 ltac:(lra)) as (P0 & Q0 & _).

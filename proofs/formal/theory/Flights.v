@@ -31,25 +31,30 @@ Notation regular := (Corrected.regular S' E' N').
 Notation impact_time := (Flight.impact_time S' E' N').
 
 Definition flown (p : cut) : option (Z * Z * Z) :=
-  impact bits unit side eta nu 0 (first_phase p) (last_phase p) (-1) 1 (lifts p) (flights p) (falls p).
+  impact bits unit side eta nu 0 (first_phase p) (last_phase p) (Zneg unit) (Zpos unit) (lifts p) (flights p) (falls p).
+
+Lemma velocities : ratio (Zneg unit) = -1 /\ ratio (Zpos unit) = 1 /\ ratio 0 = 0.
+Proof. pose proof (unit_pos unit). unfold Numbers.ratio. rewrite <- Pos2Z.opp_pos, opp_IZR. split; [|split]; field; lra. Qed.
 
 Lemma flown_branch p T u v : flown p = Some (T, u, v) ->
   branch S' E' N' (ratio (first_phase p)) (ratio (last_phase p)) (ratio T) (ratio u) (ratio v).
 Proof.
-  intros H. pose proof (eta_real unit eta eta_pos) as E0. unfold flown in H.
-  pose proof (impact_flights bits unit side eta nu 0 eta_pos _ _ _ _ _ _ _ _ _ _ H) as Fl0.
-  destruct Fl0 as [O _ La Fl Fa En]. rewrite ratio_0 in La, Fl, Fa, En.
-  assert (Z0 : ratio (-1) <= 0 <= ratio 1) by (rewrite <- (ratio_0 unit); split; apply ratio_le; lia).
-  split; auto; intros phi; intros.
-  - rewrite <- (proj2 (proj2 (plastic S' E' N' E0 phi 0 t))). auto.
-  - rewrite <- (proj1 (plastic S' E' N' E0 phi 0 t)). auto.
-  - rewrite <- (proj1 (proj2 (plastic S' E' N' E0 phi 0 t))). auto.
-  - rewrite <- (proj1 (plastic S' E' N' E0 phi 0 (ratio v))). auto.
+  unfold flown. intros H. apply (impact_flights bits unit side eta nu 0 eta_pos) in H.
+  destruct velocities as (V0 & V1 & V). rewrite V, V0, V1 in H. exact H.
 Qed.
 
 (* Phases and times of a piece's impacts. *)
 Definition phases (p : cut) : I.type := range (first_phase p) (last_phase p).
 Definition turned (k : Z) : I.type := I.mul prec (I.mul prec (I.fromZ prec 2) (I.pi prec)) (I.fromZ prec k).
+Lemma turned_holds k : holds (turned k) (2 * PI * IZR k).
+Proof. apply mul_holds; [apply mul_holds; [apply I.fromZ_correct|apply I.pi_correct]|apply I.fromZ_correct]. Qed.
+(* All of V within one turn, and not at its ends. *)
+Definition one_turn (V : I.type) : bool := above_zero V && above_zero (I.sub prec (turned 1) V).
+Lemma one_turn_holds V v : holds V v -> one_turn V = true -> 0 < v < 2 * PI.
+Proof.
+  unfold one_turn. rewrite andb_true_iff. intros H [Lo Hi]. apply (above_zero_holds _ _ H) in Lo.
+  apply (above_zero_holds _ _ (sub_holds _ _ _ _ (turned_holds 1) H)) in Hi. lra.
+Qed.
 Definition image (k : Z) (p : cut) : option I.type :=
   match flown p with
   | Some (_, u, v) => Some (I.sub prec (I.add prec (phases p) (range u v)) (turned k))
@@ -61,15 +66,14 @@ Lemma image_holds k p V phi : image k p = Some V -> ratio (first_phase p) <= phi
 Proof.
   unfold image. intros H P. destruct (flown p) as [[[T u] v]|] eqn:Q; [|discriminate]. injection H as <-.
   destruct (branch_time S' E' N' (eta_real unit eta eta_pos) _ _ _ _ _ (flown_branch p T u v Q) phi P) as [_ B].
-  apply sub_holds; [apply add_holds; apply range_holds; [exact P|lra]|].
-  apply mul_holds; [apply mul_holds; [apply I.fromZ_correct|apply I.pi_correct]|apply I.fromZ_correct].
+  apply sub_holds; [apply add_holds; apply range_holds; [exact P|lra]|apply turned_holds].
 Qed.
 
 (* f' on a piece. *)
 Definition sloped (p : cut) : I.type :=
   match flown p with
   | Some (_, u, v) =>
-    let L := launched bits unit side eta nu 0 (phases p) (range (-1) 1) in
+    let L := launched bits unit side eta nu 0 (phases p) (range (Zneg unit) (Zpos unit)) in
     let Q := angles bits (I.mul prec (number eta) (range u v)) (I.add prec (phases p) (range u v)) in
     let S := I.fromZ prec side in let E2 := I.mul prec (number eta) (number eta) in
     I.div prec (I.mul prec (I.div prec (ts Q) (number eta))
@@ -90,13 +94,12 @@ Proof.
   pose proof (number_holds bits unit eta) as HE. pose proof (I.fromZ_correct prec side : holds _ S') as HS.
   assert (At0 : is_at (angles bits (I.mul prec (number eta) (range u v)) (I.add prec (phases p) (range u v))) (E' * t) (phi + t))
     by (apply angles_at; auto using mul_holds, add_holds).
-  assert (Z0 : ratio (-1) <= 0 <= ratio 1) by (rewrite <- (ratio_0 unit); split; apply ratio_le; lia).
-  pose proof (launched_from bits unit side eta nu 0 eta_pos (phases p) (range (-1) 1) phi 0 Hp (range_holds _ _ _ _ _ Z0)) as L.
-  pose proof (rate_holds bits unit side eta nu 0 _ _ _ L _ _ At0) as R.
-  rewrite ratio_0, (proj1 (proj2 (plastic S' E' N' E0 phi 0 t))) in R.
+  assert (Z0 : ratio (Zneg unit) <= 0 <= ratio (Zpos unit)) by (destruct velocities as (-> & -> & _); lra).
+  pose proof (launched_from bits unit side eta nu 0 eta_pos (phases p) (range (Zneg unit) (Zpos unit)) phi 0 Hp (range_holds _ _ _ _ _ Z0)) as L.
+  pose proof (rate_holds bits unit side eta nu 0 _ _ _ L _ _ At0) as R. rewrite ratio_0 in R.
   unfold Corrected.rate, Flight.slope. fold t.
   replace (S' * (N' * sin phi * (1 - E' ^ 2) - E' ^ 2)) with ((S' * (1 + N' * sin phi) - S') * (1 - E' * E') - S' * (E' * E')) by ring.
-  assert (Neg : gap_t S' E' N' phi t < 0) by (destruct Br as [_ _ _ F _]; apply F; lra).
+  assert (Neg : gap_t S' E' N' phi t < 0) by (apply (branch_falls _ _ _ _ _ _ _ _ Br); lra).
   apply div_holds; [|exact R|lra]. apply mul_holds; [apply div_holds; [apply At0|exact HE|lra]|].
   destruct L as ([Ri _] & _). pose proof (one_holds bits). auto 10 using sub_holds, mul_holds.
 Qed.
@@ -108,10 +111,9 @@ Definition steep (way : bool) (p : cut) : bool :=
   | Some (m, n) => at_least bits n (if way then sloped p else I.neg (sloped p)) (Zpos m)
   | None => true
   end.
-(* All impacts within one turn, and not at its ends. *)
 Definition good_piece (k : Z) (way : bool) (p : cut) : bool :=
   match image k p with
-  | Some V => above_zero V && above_zero (I.sub prec (turned 1) V) && steep way p
+  | Some V => one_turn V && steep way p
   | None => false
   end.
 
@@ -123,16 +125,13 @@ Definition flies (k : Z) (way : bool) (x : R) : Prop :=
 Lemma good_piece_flies k way p x : good_piece k way p = true -> ratio (first_phase p) < x < ratio (last_phase p) -> flies k way x.
 Proof.
   unfold good_piece. intros H X. destruct (image k p) as [V|] eqn:Q; [|discriminate].
-  rewrite !andb_true_iff in H. destruct H as [[Lo Hi] St].
+  rewrite andb_true_iff in H. destruct H as [It St].
   unfold image in Q. destruct (flown p) as [[[T u] v]|] eqn:Fl; [|discriminate].
   assert (Re : regular (ratio (first_phase p)) (ratio (last_phase p)))
     by apply (branch_regular S' E' N' (eta_real unit eta eta_pos) _ _ _ _ _ (flown_branch p T u v Fl)).
   assert (La : in_lap S' E' N' (ratio (first_phase p)) (ratio (last_phase p)) k).
   { intros phi P. assert (HV : holds V (lift phi - 2 * PI * IZR k)) by (apply (image_holds k p); [unfold image; rewrite Fl|]; auto).
-    apply (above_zero_holds _ _ HV) in Lo.
-    assert (T1 : holds (turned 1) (2 * PI * 1)).
-    { apply mul_holds; [apply mul_holds; [apply I.fromZ_correct|apply I.pi_correct]|apply I.fromZ_correct]. }
-    apply (above_zero_holds _ _ (sub_holds _ _ _ _ T1 HV)) in Hi. lra. }
+    apply (one_turn_holds _ _ HV) in It. lra. }
   destruct (f_lift S' E' N' _ _ Re k La x ltac:(lra)) as [E U].
   split; [apply U; reflexivity|split; [exact E|]].
   exists (Corrected.rate S' E' N' x). split; [apply (f_derive S' E' N' _ _ Re k La x X)|].
@@ -284,9 +283,7 @@ Proof.
   destruct (branch_time _ _ _ (eta_real unit eta E) _ _ _ _ _ (flown_branch bits unit side eta nu E p T u v Fl) phi P) as [I _].
   apply (at_least_holds bits unit _ _ _ HV) in Lo. apply (at_most_holds bits unit _ _ _ HV) in Hi.
   apply (ratio_le unit) in L0. rewrite ratio_0 in L0.
-  assert (T1 : holds (turned bits 1) (2 * PI * 1)).
-  { apply mul_holds; [apply mul_holds; [apply I.fromZ_correct|apply I.pi_correct]|apply I.fromZ_correct]. }
-  pose proof (above_zero_holds _ _ (sub_holds _ _ _ _ T1 (number_holds bits unit r)) R1).
+  pose proof (above_zero_holds _ _ (sub_holds _ _ _ _ (turned_holds bits 1) (number_holds bits unit r)) R1).
   eexists. split; [|split; [exact Lo|exact Hi]]. unfold Corrected.lift in *.
   exists (Flight.impact_time (IZR side) (ratio unit eta) (ratio unit nu) phi), k. split; [exact I|split; [reflexivity|lra]].
 Qed.

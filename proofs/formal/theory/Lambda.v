@@ -62,6 +62,39 @@ Proof.
   unfold mend. replace (S i + k)%nat with (i + S k)%nat by lia. apply G.
 Qed.
 
+Lemma ample_free : ample free.
+Proof.
+  split.
+  - intros w H k. destruct (H (S (S k))) as (v & F & E). rewrite !E by lia. apply F.
+  - apply free_tail.
+  - intros n n0. exists (fun k => negb (Nat.eqb (k mod n) 1)), 1%nat. split; [|split].
+    + intros k. destruct (Nat.eqb_spec (k mod n) 1) as [E|]; [|reflexivity]. destruct (Nat.eqb_spec (S k mod n) 1) as [E'|]; [|reflexivity].
+      exfalso. assert (n1 : (1 < n)%nat) by (destruct (Nat.eq_dec n 1) as [->|]; [rewrite Nat.mod_1_r in E; discriminate|lia]).
+      replace (S k) with (k + 1)%nat in E' by lia. rewrite Nat.add_mod, E, Nat.mod_small with (a := 1%nat) in E' by lia.
+      destruct (Nat.eq_dec n 2) as [->|]; [discriminate|]. rewrite Nat.mod_small in E'; lia.
+    + intros k. do 2 f_equal. rewrite Nat.add_mod, Nat.mod_same, Nat.add_0_l, Nat.mod_mod; lia.
+    + intros k K. rewrite (Nat.mod_small 1) by lia. cbn. destruct (Nat.eqb_spec ((k + 1) mod n) 1) as [E|]; [|discriminate].
+      destruct (Nat.eq_dec (k + 1) n) as [Q|]; [rewrite Q, Nat.mod_same in E; lia|]. rewrite Nat.mod_small in E; lia.
+  - apply free_avoid.
+  - destruct everywhere as [d D]. exists (mend d). split; [apply mend_free|]. intros w n F.
+    destruct (D (fun k => match k with O => true | S k => w k end) (S n)) as [i I]. exists (S i).
+    intros k K. apply (mend_keeps d w i n F); auto.
+    + pose proof (I O ltac:(lia)) as Q. unfold tail in Q. rewrite Nat.add_0_r in Q. exact Q.
+    + intros j J. pose proof (I (S j) ltac:(lia)) as Q. unfold tail in Q. rewrite Nat.add_succ_r in Q. exact Q.
+  - intros w n F. set (other j b k := if Nat.eqb k j then b else w k).
+    assert (Go : forall j b, (n <= j)%nat -> free (other j b) -> b <> w j -> exists v j, free v /\ v j <> w j /\ forall k, (k < n)%nat -> v k = w k).
+    { intros j b J Fr D. exists (other j b), j. unfold other at 2 3. rewrite Nat.eqb_refl. split; [auto|split; [auto|]].
+      intros k K. destruct (Nat.eqb_spec k j); auto. lia. }
+    destruct (classic (exists j, (n <= j)%nat /\ w j = false)) as [(j & J & Wj)|No].
+    + apply (Go j true J); [|rewrite Wj; discriminate]. intros k. specialize (F k). unfold other.
+      destruct (Nat.eqb k j), (Nat.eqb (S k) j), (Nat.eqb (S (S k)) j); rewrite ?Bool.orb_true_r; auto.
+    + assert (One : forall j, (n <= j)%nat -> w j = true).
+      { intros j J. destruct (w j) eqn:Wj; auto. exfalso. eauto. }
+      apply (Go (S n) false); [lia| |rewrite One by lia; discriminate]. intros k. specialize (F k). unfold other.
+      destruct (Nat.eqb_spec k (S n)), (Nat.eqb_spec (S k) (S n)), (Nat.eqb_spec (S (S k)) (S n)); try lia; auto;
+        rewrite ?(One k), ?(One (S k)) by lia; rewrite ?orb_true_r; reflexivity.
+Qed.
+
 Section Lambda.
 Variable N : R -> R -> Prop.
 Variables A b0 a1 B m M : R.
@@ -92,14 +125,10 @@ Qed.
 
 Section Words.
 Variable X : word -> R.
+Hypothesis X_stays : forall x, L x <-> exists w, True /\ x = X w.
 Hypothesis X_it : forall x w, itinerary N A b0 a1 B x w <-> x = X w.
-Hypothesis X_stays : forall x, L x <-> exists w, x = X w.
 Hypothesis X_inj : forall w w', X w = X w' <-> forall k, w k = w' k.
 Hypothesis X_N : forall w, N (X w) (X (shift w)).
-Hypothesis close : forall n w w', (forall k, (k < n)%nat -> w k = w' k) ->
-  Rabs (X w - X w') <= (B - A) / m ^ n.
-Hypothesis apart : forall n w w', (forall k, (k < n)%nat -> w k = w' k) -> w n <> w' n ->
-  (a1 - b0) / M ^ n <= Rabs (X w - X w').
 
 Lemma X_in w : In_ A b0 a1 B (w O) (X w).
 Proof. destruct (proj2 (X_it _ _) eq_refl : itinerary N A b0 a1 B (X w) w) as (u & <- & H). apply (H O). Qed.
@@ -135,7 +164,7 @@ Qed.
 Lemma words x : Lambda x <-> exists w, free w /\ x = X w.
 Proof.
   split.
-  - intros (u & U & H). destruct (proj1 (X_stays x)) as [w W].
+  - intros (u & U & H). destruct (proj1 (X_stays x)) as (w & _ & W).
     { exists u. split; auto. intros n. destruct (H n). split; auto. lra. }
     exists w. split; auto. intros k.
     assert (E : forall n, u n = X (tail n w)).
@@ -148,96 +177,17 @@ Proof.
     + pose proof (X_in (tail n w)) as I. destruct (tail n w 0%nat); unfold In_ in I; lra.
 Qed.
 
-Lemma word_in w : free w -> Lambda (X w).
-Proof. intros F. apply words. eauto. Qed.
-
-Notation iterate_words := (iterate_X N det X X_N).
-
-Lemma periods n : (0 < n)%nat -> exists x, Lambda x /\ period N n x.
-Proof.
-  intros n0. set (w := fun k => negb (Nat.eqb (k mod n) 1)). exists (X w). split; [apply word_in|split; [auto|split]].
-  - intros k. unfold w. destruct (Nat.eqb_spec (k mod n) 1) as [E|]; [|reflexivity]. destruct (Nat.eqb_spec (S k mod n) 1) as [E'|]; [|reflexivity].
-    exfalso. assert (n1 : (1 < n)%nat) by (destruct (Nat.eq_dec n 1) as [->|]; [rewrite Nat.mod_1_r in E; discriminate|lia]).
-    replace (S k) with (k + 1)%nat in E' by lia. rewrite Nat.add_mod, E, Nat.mod_small with (a := 1%nat) in E' by lia.
-    destruct (Nat.eq_dec n 2) as [->|]; [discriminate|]. rewrite Nat.mod_small in E'; lia.
-  - apply iterate_words, X_inj. intros k. unfold tail, w. do 2 f_equal.
-    rewrite Nat.add_mod, Nat.mod_same, Nat.add_0_l, Nat.mod_mod; lia.
-  - intros k K H. apply iterate_words in H. apply X_inj with (k := 1%nat) in H. unfold tail, w in H.
-    rewrite (Nat.mod_small 1) in H by lia. cbn in H. destruct (Nat.eqb_spec ((k + 1) mod n) 1) as [E|]; [|discriminate].
-    destruct (Nat.eq_dec (k + 1) n) as [Q|]; [rewrite Q, Nat.mod_same in E; lia|]. rewrite Nat.mod_small in E; lia.
-Qed.
-
-Lemma many (e : nat -> R) : exists x, Lambda x /\ nonperiodic N x /\ forall k, ~ same_orbit N x (e k).
-Proof.
-  set (T := orbits_of N X e). destruct (free_avoid T) as (w & F & H). exists (X w). split; [apply word_in, F|].
-  apply (avoids_orbits N det X X_inj X_N e w H).
-Qed.
-
-Lemma dense : exists x, Lambda x /\ forall y eps, Lambda y -> 0 < eps ->
-  exists n z, iterate N n x z /\ Lambda z /\ Rabs (z - y) < eps.
-Proof.
-  destruct everywhere as [d D]. exists (X (mend d)). split; [apply word_in, mend_free|]. intros v eps V E.
-  apply words in V. destruct V as (w & F & ->). destruct (vanishing m (B - A) eps) as [n Hn]; try lra.
-  destruct (D (fun k => match k with O => true | S k => w k end) (S n)) as [i I].
-  exists (S i), (X (tail (S i) (mend d))). split; [apply iterate_words; auto|split; [apply word_in, free_tail, mend_free|]].
-  refine (Rle_lt_trans _ _ _ (close n _ _ _) Hn). intros k K. unfold tail.
-  apply (mend_keeps d w i n F); auto.
-  - pose proof (I O ltac:(lia)) as Q. unfold tail in Q. rewrite Nat.add_0_r in Q. exact Q.
-  - intros j J. pose proof (I (S j) ltac:(lia)) as Q. unfold tail in Q. rewrite Nat.add_succ_r in Q. exact Q.
-Qed.
-
-Lemma rich_X : rich N Lambda.
-Proof. split; [apply periods|split; [apply many|apply dense]]. Qed.
-
-Lemma closed_X : closed_set Lambda.
-Proof.
-  intros v V. destruct (classic (L v)) as [Lv|No].
-  - apply X_stays in Lv. destruct Lv as [w ->]. destruct (not_all_ex_not _ _ (fun F => V (word_in w F))) as [k Bad].
-    exists (mkposreal _ (gap_pos A b0 a1 B M order M_ge_1 (S (S k)))). intros t T Q. apply words in Q. destruct Q as (v & F & ->).
-    assert (Sh : forall j, (j <= S (S k))%nat -> v j = w j).
-    { apply (share A b0 a1 B M order M_ge_1 X apart). exact T. }
-    apply Bad. rewrite <- !Sh by lia. apply F.
-  - destruct (closed N A b0 a1 B m M order m_gt_1 M_ge_1 X X_stays close apart v No) as [e E]. exists e.
-    intros t T Q. apply (E t T). apply words in Q. destruct Q as (w & _ & ->). apply X_stays. eauto.
-Qed.
-
-Lemma perfect_X x eps : Lambda x -> 0 < eps -> exists v, Lambda v /\ v <> x /\ Rabs (v - x) < eps.
-Proof.
-  intros Lx E. apply words in Lx. destruct Lx as (w & F & ->). destruct (vanishing m (B - A) eps) as [n V]; try lra.
-  set (other j b k := if Nat.eqb k j then b else w k).
-  assert (Go : forall j b, (n <= j)%nat -> free (other j b) -> b <> w j -> exists v, Lambda v /\ v <> X w /\ Rabs (v - X w) < eps).
-  { intros j b J Fr D. exists (X (other j b)). split; [apply word_in, Fr|split].
-    - intros H. apply X_inj with (k := j) in H. unfold other in H. rewrite Nat.eqb_refl in H. auto.
-    - eapply Rle_lt_trans; [apply (close n)|apply V]. intros k K. unfold other. destruct (Nat.eqb_spec k j); auto. lia. }
-  destruct (classic (exists j, (n <= j)%nat /\ w j = false)) as [(j & J & Wj)|No].
-  - apply (Go j true J); [|rewrite Wj; discriminate]. intros k. specialize (F k). unfold other.
-    destruct (Nat.eqb k j), (Nat.eqb (S k) j), (Nat.eqb (S (S k)) j); rewrite ?Bool.orb_true_r; auto.
-  - assert (One : forall j, (n <= j)%nat -> w j = true).
-    { intros j J. destruct (w j) eqn:Wj; auto. exfalso. eauto. }
-    apply (Go (S n) false); [lia| |rewrite One by lia; discriminate]. intros k. specialize (F k). unfold other.
-    destruct (le_lt_dec n (S k)) as [Le|Gt].
-    + destruct (Nat.eqb_spec (S k) (S n)) as [E1|D].
-      * destruct (Nat.eqb_spec k (S n)); [lia|]. rewrite (One k) by lia. reflexivity.
-      * rewrite (One (S k)) by lia. rewrite orb_true_r. reflexivity.
-    + destruct (Nat.eqb_spec k (S n)), (Nat.eqb_spec (S k) (S n)), (Nat.eqb_spec (S (S k)) (S n)); try lia. exact F.
-Qed.
-
-Lemma cantor_Lambda : cantor_set Lambda.
-Proof.
-  split; [exists (X (fun _ => true)); apply word_in; intros k; reflexivity|split; [|split]].
-  - apply compact_P5; [apply closed_X|]. exists P, B. intros x (u & <- & H). apply (H O).
-  - apply perfect_X.
-  - intros x v Lx Lv Lt.
-    destruct (no_interval N A b0 a1 B M order M_ge_1 X X_stays X_inj apart x v) as (t & T & Q); auto.
-    + apply words in Lx. destruct Lx as (w & _ & ->). apply X_stays. eauto.
-    + apply words in Lv. destruct Lv as (w & _ & ->). apply X_stays. eauto.
-    + exists t. split; auto. intros H. apply Q. apply words in H. destruct H as (w & _ & ->). apply X_stays. eauto.
-Qed.
 End Words.
 
 Theorem lambda_rich : rich N Lambda.
-Proof. destruct shifted as (X & It & S & I & Nx & C & D). apply (rich_X X); auto. Qed.
+Proof.
+  destruct (shift_words N A b0 a1 B m M order shifted) as (X & S & It & In & I & Nx & C & D).
+  apply rich_X with (A := A) (b0 := b0) (a1 := a1) (B := B) (m := m) (X := X) (W := free); auto using ample_free. apply words; auto.
+Qed.
 
 Theorem lambda_cantor : cantor_set Lambda.
-Proof. destruct shifted as (X & It & S & I & Nx & C & D). apply (cantor_Lambda X); auto. Qed.
+Proof.
+  destruct (shift_words N A b0 a1 B m M order shifted) as (X & S & It & In & I & Nx & C & D).
+  apply cantor_X with (A := A) (b0 := b0) (a1 := a1) (B := B) (m := m) (M := M) (X := X) (W := free); auto using ample_free. apply words; auto.
+Qed.
 End Lambda.

@@ -16,10 +16,10 @@ Qed.
 
 (* Where a continuous function first has a value. *)
 Lemma first_hit g a b r : a <= b -> (forall x, a <= x <= b -> continuity_pt g x) -> g a <= r <= g b ->
-  exists c, a <= c <= b /\ g c = r /\ forall x, a <= x <= c -> g x <= r.
+  exists c, a <= c <= b /\ g c = r /\ forall x, a <= x < c -> g x < r.
 Proof.
   intros ab C H. destruct (Req_dec (g a) r) as [E|N].
-  { exists a. split; [lra|split; [auto|]]. intros x X. replace x with a by lra. lra. }
+  { exists a. split; [lra|split; [auto|]]. intros x X. lra. }
   set (E := fun x => a <= x <= b /\ forall y, a <= y <= x -> g y < r).
   destruct (completeness E) as [c [U L]].
   { exists b. intros x [X _]. lra. }
@@ -43,7 +43,7 @@ Proof.
     assert (Rmax a (c - d / 2) < c) by (unfold Rmax; destruct Rle_dec; lra).
     specialize (B (Rmax a (c - d / 2)) ltac:(lra)).
     specialize (D (Rmax a (c - d / 2)) ltac:(rewrite Rabs_left1; lra)). lra. }
-  exists c. split; [lra|split; [lra|]]. intros x X. destruct (Req_dec x c) as [->|]; [lra|]. apply Rlt_le, B. lra.
+  exists c. split; [lra|split; [lra|exact B]].
 Qed.
 
 Lemma mirrored g s x : continuity_pt g (s - x) -> continuity_pt (fun y => - g (s - y)) x.
@@ -64,8 +64,9 @@ Proof.
   - intros x X. apply mirrored, C. lra.
   - replace (a + q - a) with q by ring. replace (a + q - q) with a by ring. lra.
   - exists (a + q - c), q. repeat split; try lra.
-    + specialize (Hc (a + q - x) ltac:(lra)). replace (a + q - (a + q - x)) with x in Hc by ring. lra.
-    + apply Hq. lra.
+    + destruct (Req_dec x (a + q - c)) as [->|]; [lra|].
+      specialize (Hc (a + q - x) ltac:(lra)). replace (a + q - (a + q - x)) with x in Hc by ring. lra.
+    + destruct (Req_dec x q) as [->|]; [lra|]. apply Rlt_le, Hq. lra.
 Qed.
 
 Lemma part g a b l r : a <= b -> l <= r -> (forall x, a <= x <= b -> continuity_pt g x) -> spans g a b l r ->

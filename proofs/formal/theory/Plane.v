@@ -37,7 +37,15 @@ Definition measuring (s : hset) : stage :=
 (* The map from coordinates to coordinates. *)
 Definition local (i j : nat) : list stage := charting (set i) :: repeat F power ++ [measuring (set j)].
 
+(* A test of boxes [l, h] x [l', h'] / 64 on parts of [-1, 1]^2: first the unstable direction is cut. *)
+Fixpoint halves (test : Z -> Z -> bool) (depth : nat) (l h : Z) : bool :=
+  if test l h then true else match depth with
+  | O => false
+  | S n => let m := ((l + h) / 2)%Z in if halves test n l m then halves test n m h else false
+  end.
 Definition DEPTH := 6%nat.
+Definition everywhere (test : Z -> Z -> Z -> Z -> bool) : bool :=
+  halves (fun l h => halves (test l h) DEPTH (-64) 64) DEPTH (-64) 64.
 Section Tests.
 Variable bits : positive.
 Notation prec := (F.PtoP bits).
@@ -48,24 +56,33 @@ Notation image i j A B := (images bits (local i j) A B).
 
 (* The face x = way is taken beyond the side of the same sign, or of the other one. *)
 Definition beyond (i j : nat) (right same : bool) : bool :=
-  everywhere (fun A B => match image i j A B with
+  always (fun B => match image i j (if right then one else minus_one) B with
     | Some (V, _) => if eqb right same then at_least bits 1 V 1 else at_most bits 1 V (-1)
     | None => false
-    end) DEPTH (if right then one else minus_one) side.
-Definition clear (i j : nat) (A B : I.type) : bool :=
-  match image i j A B with
-  | Some (V, W) => above_zero (I.sub prec V one) || above_zero (I.sub prec minus_one V) || small bits 1 W 1
+    end) DEPTH side.
+Notation within l h := (range bits 64 l h).
+Definition radius (l h : Z) : Z := Z.max ((l + h) / 2 - l) (h - (l + h) / 2).
+(* How far |y'| may be from its value in the middle of a box. *)
+Definition spread (l h l' h' : Z) : I.type := number bits (64 * parts) (r_ bound * radius l h + s_ bound * radius l' h').
+Definition clear (i j : nat) (l h l' h' : Z) : bool :=
+  match image i j (within l h) (within l' h') with
+  | Some (V, W) =>
+    if above_zero (I.sub prec V one) || above_zero (I.sub prec minus_one V) || small bits 1 W 1 then true
+    else match image i j (number bits 64 ((l + h) / 2)) (number bits 64 ((l' + h') / 2)) with
+    | Some (_, W0) => ((-64 <=? l) && (h <=? 64) && (-64 <=? l') && (h' <=? 64))%Z && at_most bits 1 (I.add prec W0 (spread l h l' h')) 1 && at_least bits 1 (I.sub prec W0 (spread l h l' h')) (-1)
+    | None => false
+    end
   | None => false
   end.
-Definition steep (i j : nat) (same : bool) (A B : I.type) : bool :=
-  match slopes bits (local i j) A B (Matrix one (I.fromZ prec 0) (I.fromZ prec 0) one) with
+Definition steep (i j : nat) (same : bool) (l h l' h' : Z) : bool :=
+  match slopes bits (local i j) (within l h) (within l' h') (Matrix one (I.fromZ prec 0) (I.fromZ prec 0) one) with
   | Some J => at_least bits parts (if same then xx J else I.neg (xx J)) (p_ bound) && small bits parts (xy J) (q_ bound) &&
       small bits parts (yx J) (r_ bound) && small bits parts (yy J) (s_ bound)
   | None => false
   end.
 Definition crossing (i j : nat) (same : bool) : bool :=
   if beyond i j false same then if beyond i j true same then
-  if everywhere (clear i j) DEPTH side side then everywhere (steep i j same) DEPTH side side
+  if everywhere (clear i j) then everywhere (steep i j same)
   else false else false else false.
 End Tests.
 
@@ -112,25 +129,25 @@ Proof.
   - intros a b I J. specialize (A a I). rewrite forallb_forall in A. auto.
 Qed.
 
+Lemma signs : 0 <= part (r_ bound) /\ 0 <= part (s_ bound).
+Proof.
+  destruct checks as [C _]. unfold contracting in C. destruct bound. cbn [r_ s_]. rewrite !andb_true_iff, !Z.leb_le in C.
+  rewrite <- (ratio_0 parts). split; apply ratio_le; tauto.
+Qed.
+
 Lemma det_not_0 i : IZR (ux (set i)) * IZR (vy (set i)) - IZR (vx (set i)) * IZR (uy (set i)) <> 0.
 Proof.
   rewrite <- !mult_IZR, <- minus_IZR. apply not_0_IZR. destruct checks as (_ & D & _).
   destruct (nth_in_or_default i sets (Hset 0 0 (Zpos unit) 0 0 (Zpos unit))) as [I | ->]; [auto|simpl; lia].
 Qed.
 
+Ltac by_field i z := pose proof (det_not_0 i); pose proof (unit_pos unit); destruct z as [x y];
+  unfold coordinates, chart, Stages.apply, measuring, charting, from_centre, quotient; cbn [fst snd value];
+  rewrite minus_IZR, !mult_IZR; f_equal; field; split; auto; lra.
 Lemma charted i q : coordinates i (chart i q) = q.
-Proof.
-  pose proof (det_not_0 i) as D. pose proof (unit_pos unit) as U. destruct q as [x y].
-  unfold coordinates, chart, Stages.apply, measuring, charting, from_centre, quotient. cbn [fst snd value].
-  rewrite minus_IZR, !mult_IZR. f_equal; field; split; auto; lra.
-Qed.
-
+Proof. by_field i q. Qed.
 Lemma measured i z : chart i (coordinates i z) = z.
-Proof.
-  pose proof (det_not_0 i) as D. pose proof (unit_pos unit) as U. destruct z as [x y].
-  unfold coordinates, chart, Stages.apply, measuring, charting, from_centre, quotient. cbn [fst snd value].
-  rewrite minus_IZR, !mult_IZR. f_equal; field; split; auto; lra.
-Qed.
+Proof. by_field i z. Qed.
 
 Lemma cells_are i z : cell i z <-> exists q, square i q /\ z = chart i q.
 Proof.
@@ -162,72 +179,14 @@ Definition slope_there (i j : nat) (same : bool) (a b : R -> R) (t u v : R) : Pr
     part (p_ bound) <= way same (xx m) /\ Rabs (xy m) <= part (q_ bound) /\
     Rabs (yx m) <= part (r_ bound) /\ Rabs (yy m) <= part (s_ bound).
 
-Record relation (i j : nat) (same : bool) : Prop := {
-  re_left : forall g, -1 <= g <= 1 -> way same (P i j (-1, g)) <= -1;
-  re_right : forall g, -1 <= g <= 1 -> 1 <= way same (P i j (1, g));
-  re_clear : forall q, square i q -> -1 <= P i j q <= 1 -> -1 <= Q i j q <= 1;
-  re_slope : forall (a b : R -> R) (t u v : R), -1 <= a t <= 1 -> -1 <= b t <= 1 -> is_derive a t u -> is_derive b t v -> slope_there i j same a b t u v
-}.
+Definition sloping (i j : nat) (same : bool) : Prop := forall (a b : R -> R) (t u v : R),
+  -1 <= a t <= 1 -> -1 <= b t <= 1 -> is_derive a t u -> is_derive b t v -> slope_there i j same a b t u v.
 
-Lemma side_holds bits x : -1 <= x <= 1 -> holds (I.join (I.fromZ (F.PtoP bits) (-1)) (I.fromZ (F.PtoP bits) 1)) x.
-Proof. apply join_holds; apply I.fromZ_correct. Qed.
-
-Lemma ratio_1 n : Numbers.ratio 1 n = IZR n.
-Proof. unfold Numbers.ratio. field. Qed.
-
-Lemma beyond_holds bits i j right same g : beyond bits i j right same = true -> -1 <= g <= 1 ->
-  if eqb right same then 1 <= P i j (if right then 1 else -1, g) else P i j (if right then 1 else -1, g) <= -1.
-Proof.
-  intros B G. unfold beyond in B.
-  refine (everywhere_holds (fun x y => if eqb right same then 1 <= P i j (x, y) else P i j (x, y) <= -1) _ DEPTH _ _ _
-    (if right then 1 else -1) g B _ _); [|destruct right; apply I.fromZ_correct|apply side_holds, G].
-  intros A B' x y T X Y. destruct (images bits (local i j) A B') as [[V W]|] eqn:E; [|discriminate].
-  destruct (images_hold bits _ _ _ _ _ (x, y) E X Y) as [H _]. unfold P.
-  destruct (eqb right same); [apply (at_least_holds bits 1) with (2 := T) in H|apply (at_most_holds bits 1) with (2 := T) in H];
-    rewrite ratio_1 in H; exact H.
-Qed.
-
-Lemma crossing_holds bits i j same : crossing bits i j same = true -> relation i j same.
-Proof.
-  unfold crossing. intros H. destruct (beyond bits i j false same) eqn:L; [|discriminate].
-  destruct (beyond bits i j true same) eqn:Ri; [|discriminate].
-  destruct (everywhere (clear bits i j) _ _ _) eqn:Cl; [|discriminate]. split.
-  - intros g G. pose proof (beyond_holds bits i j false same g L G) as B. unfold way. destruct same; cbn [eqb] in B; lra.
-  - intros g G. pose proof (beyond_holds bits i j true same g Ri G) as B. unfold way. destruct same; cbn [eqb] in B; lra.
-  - intros [x y] [X Y]. cbn [fst snd] in X, Y.
-    refine (everywhere_holds (fun x y => -1 <= P i j (x, y) <= 1 -> -1 <= Q i j (x, y) <= 1) _ DEPTH _ _ _ x y Cl
-      (side_holds bits x X) (side_holds bits y Y)).
-    clear. intros A B x y T X Y. unfold clear in T. destruct (images bits (local i j) A B) as [[V W]|] eqn:E; [|discriminate].
-    destruct (images_hold bits _ _ _ _ _ (x, y) E X Y) as [HV HW]. fold (P i j (x, y)) in HV. fold (Q i j (x, y)) in HW.
-    rewrite !orb_true_iff in T. destruct T as [[T|T]|T].
-    + apply (above_zero_holds _ _ (sub_holds _ _ _ _ HV (one_holds bits))) in T. lra.
-    + apply (above_zero_holds _ _ (sub_holds _ _ _ _ (I.fromZ_correct (F.PtoP bits) (-1) : holds _ (-1)) HV)) in T. lra.
-    + apply (small_holds bits 1 _ _ _ HW) in T. rewrite ratio_1 in T. apply Rabs_le_between in T. lra.
-  - intros a b t u v A B Da Db.
-    refine (everywhere_holds (fun x y => forall (a b : R -> R) t, x = a t -> y = b t -> is_derive a t u -> is_derive b t v -> slope_there i j same a b t u v)
-      _ DEPTH _ _ _ (a t) (b t) H (side_holds bits _ A) (side_holds bits _ B) a b t eq_refl eq_refl Da Db).
-    clear. intros A B x y T X Y a b t -> -> Da Db. unfold steep in T.
-    destruct (slopes bits (local i j) A B _) as [J|] eqn:E; [|discriminate].
-    destruct (slopes_hold bits _ _ _ _ _ a b t (Matrix 1 0 0 1) u v E X Y) as (m & (M1 & M2 & M3 & M4) & D1 & D2).
-    + unfold held. cbn [xx xy yx yy]. split; [|split; [|split]]; apply I.fromZ_correct.
-    + cbn [xx xy yx yy]. replace (1 * u + 0 * v) with u by ring. exact Da.
-    + cbn [xx xy yx yy]. replace (0 * u + 1 * v) with v by ring. exact Db.
-    + rewrite !andb_true_iff in T. destruct T as [[[Tp Tq] Tr] Ts]. exists m.
-      split; [exact D1|split; [exact D2|split; [|split; [|split]; eapply small_holds; eassumption]]].
-      apply (at_least_holds bits parts) with (2 := Tp). destruct same; auto using neg_holds.
-Qed.
-
-Lemma arrow_relation i j : In (i, j) arrows -> exists same, relation i j same.
-Proof.
-  intros A. destruct checks as (_ & _ & _ & _ & G). specialize (G _ A). apply sometime_holds in G. destruct G as (bits & G).
-  cbn [fst snd] in G. destruct (crossing bits i j true) eqn:E; eauto using crossing_holds.
-Qed.
-
-Lemma differences i j z z' : In (i, j) arrows -> square i z -> square i z' ->
+Lemma differences i j same z z' : sloping i j same -> square i z -> square i z' ->
   part (p_ bound) * Rabs (fst z - fst z') <= Rabs (P i j z - P i j z') + part (q_ bound) * Rabs (snd z - snd z') /\
   Rabs (Q i j z - Q i j z') <= part (r_ bound) * Rabs (fst z - fst z') + part (s_ bound) * Rabs (snd z - snd z').
 Proof.
-  intros A [X Y] [X' Y']. destruct (arrow_relation i j A) as (same & [_ _ _ S]).
+  intros S [X Y] [X' Y'].
   destruct z as [x y], z' as [x' y']. cbn [fst snd] in *.
   set (a := fun t => x' + t * (x - x')). set (b := fun t => y' + t * (y - y')).
   assert (Da : forall t, is_derive a t (x - x')) by (intros t; unfold a; auto_derive; auto; ring).
@@ -253,6 +212,117 @@ Proof.
   - destruct (M (fun s => Q i j (a s, b s))) as (c & C & E); [intros t T; destruct (D t T) as (m & _ & Dm & _); eexists; exact Dm|].
     destruct (D c C) as (m & _ & Dm & _ & _ & Br & Bs). rewrite (is_derive_unique _ _ _ Dm), E1, E0 in E. rewrite E.
     eapply Rle_trans; [apply Rabs_triang|]. rewrite !Rabs_mult. apply Rplus_le_compat; apply Rmult_le_compat_r; lra.
+Qed.
+
+Record relation (i j : nat) (same : bool) : Prop := {
+  re_left : forall g, -1 <= g <= 1 -> way same (P i j (-1, g)) <= -1;
+  re_right : forall g, -1 <= g <= 1 -> 1 <= way same (P i j (1, g));
+  re_clear : forall q, square i q -> -1 <= P i j q <= 1 -> -1 <= Q i j q <= 1;
+  re_slope : sloping i j same
+}.
+
+Lemma side_holds bits x : -1 <= x <= 1 -> holds (I.join (I.fromZ (F.PtoP bits) (-1)) (I.fromZ (F.PtoP bits) 1)) x.
+Proof. apply join_holds; apply I.fromZ_correct. Qed.
+
+Lemma ratio_1 n : Numbers.ratio 1 n = IZR n.
+Proof. unfold Numbers.ratio. field. Qed.
+
+Lemma beyond_holds bits i j right same g : beyond bits i j right same = true -> -1 <= g <= 1 ->
+  if eqb right same then 1 <= P i j (if right then 1 else -1, g) else P i j (if right then 1 else -1, g) <= -1.
+Proof.
+  intros B G. unfold beyond in B.
+  set (x := if right then 1 else -1). set (A := if right then _ else _) in B.
+  assert (X : holds A x) by (destruct right; apply I.fromZ_correct).
+  refine (always_holds (fun y => if eqb right same then 1 <= P i j (x, y) else P i j (x, y) <= -1) _ DEPTH _ _ g B (side_holds _ _ G)).
+  intros B' y T Y. destruct (images bits (local i j) A B') as [[V W]|] eqn:E; [|discriminate].
+  destruct (images_hold bits _ _ _ _ _ (x, y) E X Y) as [H _]. unfold P.
+  destruct (eqb right same); [apply (at_least_holds bits 1) with (2 := T) in H|apply (at_most_holds bits 1) with (2 := T) in H];
+    rewrite ratio_1 in H; exact H.
+Qed.
+
+Notation r64 := (Numbers.ratio 64).
+Lemma halves_holds (P : R -> Prop) test depth : (forall l h x, test l h = true -> r64 l <= x <= r64 h -> P x) ->
+  forall l h x, halves test depth l h = true -> r64 l <= x <= r64 h -> P x.
+Proof.
+  intros T. induction depth as [|n IH]; intros l h x E X; cbn [halves] in E; (destruct (test l h) eqn:Q; [exact (T l h x Q X)|]); [discriminate|].
+  destruct (halves test n l _) eqn:L; [|discriminate]. destruct (Rle_dec x (r64 ((l + h) / 2))); [apply (IH _ _ x L)|apply (IH _ _ x E)]; lra.
+Qed.
+
+Lemma everywhere_holds (P : R -> R -> Prop) test :
+  (forall l h l' h' x y, test l h l' h' = true -> r64 l <= x <= r64 h -> r64 l' <= y <= r64 h' -> P x y) ->
+  everywhere test = true -> forall x y, -1 <= x <= 1 -> -1 <= y <= 1 -> P x y.
+Proof.
+  assert (U : r64 (-64) = -1 /\ r64 64 = 1) by (unfold Numbers.ratio; split; field). destruct U as [U0 U1].
+  intros T E x y X Y. apply (halves_holds (fun x => P x y) _ DEPTH) with (2 := E); [|lra].
+  intros l h a Ta Ha. apply (halves_holds (P a) _ DEPTH) with (2 := Ta); [eauto|lra].
+Qed.
+
+Lemma middle l h x : r64 l <= x <= r64 h -> Rabs (x - r64 ((l + h) / 2)) <= r64 (radius l h) /\ r64 l <= r64 ((l + h) / 2) <= r64 h.
+Proof.
+  intros X. assert (L : (l <= h)%Z).
+  { destruct (Z_le_gt_dec l h) as [|G]; auto. assert (H : (h < l)%Z) by lia. apply (ratio_lt 64) in H. lra. }
+  assert (M : (l <= (l + h) / 2 <= h)%Z) by (split; [apply Z.div_le_lower_bound|apply Z.div_le_upper_bound]; lia).
+  set (m := ((l + h) / 2)%Z) in *. assert (R1 : (m - l <= radius l h /\ h - m <= radius l h)%Z) by (unfold radius; fold m; lia).
+  destruct R1 as [R1 R2]. apply (ratio_le 64) in R1, R2. destruct M as [M0 M1]. apply (ratio_le 64) in M0, M1.
+  assert (Sub : forall a b, r64 (a - b) = r64 a - r64 b) by (intros; unfold Numbers.ratio; rewrite minus_IZR; field).
+  rewrite Sub in R1, R2. split; [apply Rabs_le|]; lra.
+Qed.
+
+Lemma crossing_holds bits i j same : crossing bits i j same = true -> relation i j same.
+Proof.
+  unfold crossing. intros H. destruct (beyond bits i j false same) eqn:L; [|discriminate].
+  destruct (beyond bits i j true same) eqn:Ri; [|discriminate].
+  destruct (everywhere (clear bits i j)) eqn:Cl; [|discriminate].
+  assert (Slo : sloping i j same).
+  { intros a b t u v A B Da Db.
+    refine (everywhere_holds (fun x y => forall (a b : R -> R) t, x = a t -> y = b t -> is_derive a t u -> is_derive b t v -> slope_there i j same a b t u v)
+      _ _ H (a t) (b t) A B a b t eq_refl eq_refl Da Db).
+    clear. intros l h l' h' x y T X Y a b t -> -> Da Db. unfold steep in T.
+    destruct (slopes bits (local i j) _ _ _) as [J|] eqn:E; [|discriminate].
+    destruct (slopes_hold bits _ _ _ _ _ a b t (Matrix 1 0 0 1) u v E (range_holds _ _ _ _ _ X) (range_holds _ _ _ _ _ Y)) as (m & (M1 & M2 & M3 & M4) & D1 & D2).
+    + unfold held. cbn [xx xy yx yy]. split; [|split; [|split]]; apply I.fromZ_correct.
+    + cbn [xx xy yx yy]. replace (1 * u + 0 * v) with u by ring. exact Da.
+    + cbn [xx xy yx yy]. replace (0 * u + 1 * v) with v by ring. exact Db.
+    + rewrite !andb_true_iff in T. destruct T as [[[Tp Tq] Tr] Ts]. exists m.
+      split; [exact D1|split; [exact D2|split; [|split; [|split]; eapply small_holds; eassumption]]].
+      apply (at_least_holds bits parts) with (2 := Tp). destruct same; auto using neg_holds. }
+  split; [| | |exact Slo].
+  - intros g G. pose proof (beyond_holds bits i j false same g L G) as B. unfold way. destruct same; cbn [eqb] in B; lra.
+  - intros g G. pose proof (beyond_holds bits i j true same g Ri G) as B. unfold way. destruct same; cbn [eqb] in B; lra.
+  - intros [x y] [X Y]. cbn [fst snd] in X, Y.
+    revert X Y. refine (fun X Y => everywhere_holds (fun x y => -1 <= x <= 1 -> -1 <= y <= 1 -> -1 <= P i j (x, y) <= 1 -> -1 <= Q i j (x, y) <= 1) _ _ Cl x y X Y X Y).
+    pose proof signs as signs. clear - Slo signs. intros l h l' h' x y T X Y Sx Sy. unfold clear in T.
+    destruct (images bits (local i j) (range bits 64 l h) _) as [[V W]|] eqn:E; [|discriminate].
+    destruct (images_hold bits _ _ _ _ _ (x, y) E (range_holds _ _ _ _ _ X) (range_holds _ _ _ _ _ Y)) as [HV HW].
+    fold (P i j (x, y)) in HV. fold (Q i j (x, y)) in HW.
+    destruct (_ || _) eqn:N in T.
+    + rewrite !orb_true_iff in N. destruct N as [[N|N]|N].
+      * apply (above_zero_holds _ _ (sub_holds _ _ _ _ HV (one_holds bits))) in N. lra.
+      * apply (above_zero_holds _ _ (sub_holds _ _ _ _ (I.fromZ_correct (F.PtoP bits) (-1) : holds _ (-1)) HV)) in N. lra.
+      * apply (small_holds bits 1 _ _ _ HW) in N. rewrite ratio_1 in N. apply Rabs_le_between in N. lra.
+    + clear E N HV HW V W. destruct (middle l h x X) as [Dx Mx], (middle l' h' y Y) as [Dy My].
+      set (c := r64 ((l + h) / 2)) in *. set (c' := r64 ((l' + h') / 2)) in *.
+      destruct (images bits (local i j) _ _) as [[V W]|] eqn:E; [|discriminate].
+      destruct (images_hold bits _ _ _ _ _ (c, c') E (number_holds _ _ _) (number_holds _ _ _)) as [_ HW]. fold (Q i j (c, c')) in HW.
+      rewrite !andb_true_iff, !Z.leb_le in T. destruct T as [[[[[In0 In1] In2] In3] T] T'].
+      apply (ratio_le 64) in In0, In1, In2, In3. pose proof (number_holds bits (64 * parts) (r_ bound * radius l h + s_ bound * radius l' h')) as HS.
+      apply (at_most_holds bits 1 _ _ _ (add_holds _ _ _ _ HW HS)) in T. apply (at_least_holds bits 1 _ _ _ (sub_holds _ _ _ _ HW HS)) in T'.
+      rewrite ratio_1 in T, T'. assert (Sq : Numbers.ratio (64 * parts) (r_ bound * radius l h + s_ bound * radius l' h') =
+        part (r_ bound) * r64 (radius l h) + part (s_ bound) * r64 (radius l' h')).
+      { pose proof (unit_pos parts). unfold Numbers.ratio. rewrite Pos2Z.inj_mul, plus_IZR, !mult_IZR. field. lra. }
+      rewrite Sq in T, T'. intros _.
+      assert (Corner : -1 <= c <= 1 /\ -1 <= c' <= 1) by (unfold Numbers.ratio in *; lra).
+      destruct (differences i j same (x, y) (c, c') Slo (conj Sx Sy) Corner) as [_ Df]. cbn [fst snd] in Df.
+      destruct signs as [r0 s0].
+      assert (part (r_ bound) * Rabs (x - c) <= part (r_ bound) * r64 (radius l h)) by (apply Rmult_le_compat_l; auto).
+      assert (part (s_ bound) * Rabs (y - c') <= part (s_ bound) * r64 (radius l' h')) by (apply Rmult_le_compat_l; auto).
+      apply Rabs_le_between in Df. lra.
+Qed.
+
+Lemma arrow_relation i j : In (i, j) arrows -> exists same, relation i j same.
+Proof.
+  intros A. destruct checks as (_ & _ & _ & _ & G). specialize (G _ A). apply sometime_holds in G. destruct G as (bits & G).
+  cbn [fst snd] in G. destruct (crossing bits i j true) eqn:E; eauto using crossing_holds.
 Qed.
 
 Lemma runs_across i j y g : In (i, j) arrows -> -1 <= y <= 1 -> -1 <= g <= 1 -> exists x, -1 <= x <= 1 /\ P i j (x, g) = y.
@@ -333,7 +403,8 @@ Qed.
 Theorem plane_checked : followed_once nat (fun i j => In (i, j) arrows) cell (fun z z' => z' = map_ z) (part (rate_ bound)).
 Proof.
   destruct checks as (C & _). unfold contracting in C. pose proof (unit_pos unit) as U. pose proof (unit_pos parts) as U'.
-  pose proof differences as Df. pose proof separated as Sep. destruct bound as [p q r s c k] eqn:Eb.
+  pose proof (fun i j z z' (A : In (i, j) arrows) (Z : square i z) (Z' : square i z') => match arrow_relation i j A with
+    ex_intro same R => differences i j same z z' (re_slope _ _ _ R) Z Z' end) as Df. pose proof separated as Sep. destruct bound as [p q r s c k] eqn:Eb.
   cbn [p_ q_ r_ s_ width_ rate_] in *. rewrite !andb_true_iff, !Z.leb_le, !Z.ltb_lt in C.
   destruct C as [[[[[[[[C1 C2] C3] C4] C5] C6] C7] C8] C9].
   apply (ratio_lt parts) in C1, C5, C7. apply (ratio_le parts) in C2, C3, C4, C6. rewrite ratio_0 in *.

@@ -398,40 +398,37 @@ Theorem rebounds a d e T u v k b a' T' u' v' k' b' : eps <> 0 ->
   two_sided_shift rebound A b0 a1 B g0 g1 rate.
 Proof.
   intros E0 O W G S R1 R2 F0 F1.
-  set (lap (z : R * R) := if Rle_dec (fst z) b0 then k else k').
+  set (x0 (i : bool) := if i then a1 else A). set (x1 (i : bool) := if i then B else b0). set (n (i : bool) := if i then k' else k).
+  assert (F : forall i, exists l r T u v, rectangle_facts l (x0 i) (x1 i) r d e T u v (n i)) by (intros [|]; eauto 6).
+  clear F0 F1. set (lap (z : R * R) := if Rle_dec (fst z) b0 then k else k').
   set (P (z : R * R) := fst z + time (fst z) (snd z) - 2 * PI * IZR (lap z)).
   set (Q (z : R * R) := arrival (fst z) (snd z) (time (fst z) (snd z))).
-  assert (L0 : forall z, fst z <= b0 -> lap z = k).
-  { intros z Z. unfold lap. destruct Rle_dec; [auto|contradiction]. }
-  assert (L1 : forall z, a1 <= fst z -> lap z = k').
-  { intros z Z. unfold lap. destruct Rle_dec; [lra|auto]. }
-  assert (First : forall i z, rectangle A b0 a1 B g0 g1 i z -> first (fst z) (snd z) (time (fst z) (snd z))).
-  { intros i z [Z1 Z2]. destruct F0 as [I0 Fl0 _ _ _ _ _], F1 as [I1 Fl1 _ _ _ _ _]. unfold In_ in Z1.
-    destruct i; [apply (time_first _ _ _ _ _ _ _ Fl1)|apply (time_first _ _ _ _ _ _ _ Fl0)]; lra. }
+  assert (Lap : forall i z, x0 i <= fst z <= x1 i -> lap z = n i).
+  { intros [|] z; unfold x0, x1, n, lap; destruct Rle_dec; auto; lra. }
+  assert (In : forall i x, x0 i <= x <= x1 i -> A <= x <= B) by (intros [|] x; unfold x0, x1; lra).
+  assert (R' : forall i z, rectangle A b0 a1 B g0 g1 i z <-> box bool x0 x1 (fun _ => g0) (fun _ => g1) i z).
+  { intros [|] z; unfold rectangle, In_, box, x0, x1; tauto. }
   assert (Is : forall i z, rectangle A b0 a1 B g0 g1 i z -> forall z', rebound z z' <-> z' = (P z, Q z)).
-  { intros i z Vz z'. pose proof (First i z Vz) as Fz. split.
-    + intros (t & j & Ft & -> & Y). simpl in Y.
-      rewrite <- (time_spec _ _ _ Ft) in *. unfold Q. f_equal. unfold P.
-      assert (Lz : 0 <= fst z + time (fst z) (snd z) - 2 * PI * IZR (lap z) < 2 * PI).
-      { destruct Vz as [Z1 Z2]. unfold In_ in Z1. destruct i.
-        - rewrite L1 by lra. apply (rf_lap _ _ _ _ _ _ _ _ _ _ F1); auto.
-        - rewrite L0 by lra. apply (rf_lap _ _ _ _ _ _ _ _ _ _ F0); auto. }
+  { intros i z Vz z'. apply R' in Vz. destruct Vz as [Z1 Z2]. destruct (F i) as (l & r' & T0 & u0 & v0 & [Wi Fl _ _ Lz _ _]).
+    specialize (Lz _ _ Z1 Z2). rewrite <- (Lap i z Z1) in Lz.
+    assert (Fz : first (fst z) (snd z) (time (fst z) (snd z))) by (apply (time_first _ _ _ _ _ _ _ Fl); lra). split.
+    + intros (t & j & Ft & -> & Y). simpl in Y. rewrite <- (time_spec _ _ _ Ft) in *. unfold Q. f_equal. unfold P.
       pose proof PI_RGT_0. assert (j = lap z); [|subst; auto].
       assert (D : 2 * PI * (IZR j - IZR (lap z)) < 2 * PI /\ - (2 * PI) < 2 * PI * (IZR j - IZR (lap z))) by lra.
       assert (Hj : -1 < IZR j - IZR (lap z) < 1) by (split; apply Rmult_lt_reg_l with (2 * PI); lra). rewrite <- minus_IZR in Hj.
       assert (-1 < j - lap z < 1)%Z by (split; apply lt_IZR; apply Hj). lia.
-    + intros ->. exists (time (fst z) (snd z)), (lap z). split; [exact Fz|split; [reflexivity|]]. simpl. unfold P.
-      destruct Vz as [Z1 Z2]. unfold In_ in Z1. destruct i.
-      * rewrite L1 by lra. apply (rf_lap _ _ _ _ _ _ _ _ _ _ F1); auto.
-      * rewrite L0 by lra. apply (rf_lap _ _ _ _ _ _ _ _ _ _ F0); auto. }
-  set (x0 (i : bool) := if i then a1 else A). set (x1 (i : bool) := if i then B else b0).
-  assert (R' : forall i z, rectangle A b0 a1 B g0 g1 i z <-> box bool x0 x1 (fun _ => g0) (fun _ => g1) i z).
-  { intros [|] z; unfold rectangle, In_, box, x0, x1; tauto. }
-  assert (Range : forall i z, rectangle A b0 a1 B g0 g1 i z -> A <= fst z <= B).
-  { intros i z [Z _]. unfold In_ in Z. destruct i; lra. }
+    + intros ->. exists (time (fst z) (snd z)), (lap z). auto. }
+  assert (Df : forall i z z', box bool x0 x1 (fun _ => g0) (fun _ => g1) i z -> box bool x0 x1 (fun _ => g0) (fun _ => g1) i z' ->
+    p * Rabs (fst z - fst z') <= Rabs (P z - P z') + q * Rabs (snd z - snd z') /\
+    Rabs (Q z - Q z') <= r * Rabs (fst z - fst z') + s * Rabs (snd z - snd z')).
+  { intros i z z' [Z1 Z2] [Z1' Z2']. destruct (F i) as (l & r' & T0 & u0 & v0 & [Wi Fl Ra _ _ _ _]).
+    destruct (differences _ _ _ _ _ _ _ Fl (x0 i) (x1 i) g0 g1 p q r s Wi Ra ltac:(lra) (fst z') (snd z') (fst z) (snd z) Z1' Z1 Z2' Z2)
+      as [[D _] D']. split; [|exact D']. unfold P. rewrite !(Lap i) by assumption. match goal with |- _ <= Rabs ?f + _ =>
+      replace f with (fst z + time (fst z) (snd z) - (fst z' + time (fst z') (snd z'))) by ring end. exact D. }
   split.
   2: { apply known_past.
-    - intros i j z z' y Z1 Z2. apply rebound_injective; auto. apply Range in Z1, Z2. apply Rabs_def1; lra.
+    - intros i j z z' y Z1 Z2. apply rebound_injective; auto. apply R' in Z1, Z2. destruct Z1 as [Z1 _], Z2 as [Z2 _].
+      apply In in Z1, Z2. apply Rabs_def1; lra.
     - intros i z y y' Vz Y Y'. apply (Is i z Vz) in Y, Y'. congruence. }
   assert (Wd : 0 < (g1 - g0) / c) by (apply Rdiv_lt_0_compat; lra).
   apply (crossed_theorem bool (fun _ _ => True) x0 x1 (fun _ => g0) (fun _ => g1) (fun _ z => z) (fun _ z => z)) with
@@ -440,35 +437,14 @@ Proof.
   - intros i z. rewrite R'. split; [eauto|intros (q' & Hq & ->); auto].
   - intros [|]; unfold x0, x1; lra.
   - intros i j z z' _ Z _. apply (Is i z), R', Z.
-  - intros i j y g _ Y Hg. assert (Y' : A <= y <= B) by (destruct j; unfold x0, x1 in Y; lra). clear Y. rename Y' into Y.
-    unfold x0, x1. destruct i.
-    + pose proof (rf_left _ _ _ _ _ _ _ _ _ _ F1 g Hg). pose proof (rf_right _ _ _ _ _ _ _ _ _ _ F1 g Hg).
-      destruct (line_covers _ _ _ _ _ _ _ (rf_flights _ _ _ _ _ _ _ _ _ _ F1) a1 B g0 g1
-        (rf_within _ _ _ _ _ _ _ _ _ _ F1) g (y + 2 * PI * IZR k') Hg ltac:(lra)) as (x & X & E).
-      exists x. split; [exact X|]. unfold P. rewrite L1 by (simpl; lra). simpl. lra.
-    + pose proof (rf_left _ _ _ _ _ _ _ _ _ _ F0 g Hg). pose proof (rf_right _ _ _ _ _ _ _ _ _ _ F0 g Hg).
-      destruct (line_covers _ _ _ _ _ _ _ (rf_flights _ _ _ _ _ _ _ _ _ _ F0) A b0 g0 g1
-        (rf_within _ _ _ _ _ _ _ _ _ _ F0) g (y + 2 * PI * IZR k) Hg ltac:(lra)) as (x & X & E).
-      exists x. split; [exact X|]. unfold P. rewrite L0 by (simpl; lra). simpl. lra.
-  - intros i j z _ Vz _. apply R' in Vz. destruct Vz as [Z1 Z2]. unfold In_ in Z1. destruct i;
-      [apply (rf_velocity _ _ _ _ _ _ _ _ _ _ F1)|apply (rf_velocity _ _ _ _ _ _ _ _ _ _ F0)]; auto.
+  - intros i j y g _ Y Hg. apply In in Y. destruct (F i) as (l & r' & T0 & u0 & v0 & [Wi Fl _ _ _ Le Ri]).
+    specialize (Le g Hg). specialize (Ri g Hg).
+    destruct (line_covers _ _ _ _ _ _ _ Fl (x0 i) (x1 i) g0 g1 Wi g (y + 2 * PI * IZR (n i)) Hg ltac:(lra)) as (x & X & E).
+    exists x. split; [exact X|]. unfold P. rewrite (Lap i) by exact X. simpl. lra.
+  - intros i j z _ [Z1 Z2] _. destruct (F i) as (l & r' & T0 & u0 & v0 & Fi). apply (rf_velocity _ _ _ _ _ _ _ _ _ _ Fi); auto.
   - intros i _ j _ z _ _ [Z1 _] [Z2 _]. unfold In_ in Z1, Z2. destruct i, j; auto; lra.
-  - intros i j z z' _ Vz Vz'. apply R' in Vz, Vz'. destruct Vz as [Z1 Z2], Vz' as [Z1' Z2']. unfold In_ in Z1, Z1'. destruct i.
-    + destruct (differences _ _ _ _ _ _ _ (rf_flights _ _ _ _ _ _ _ _ _ _ F1) a1 B g0 g1 p q r s
-        (rf_within _ _ _ _ _ _ _ _ _ _ F1) (rf_rates _ _ _ _ _ _ _ _ _ _ F1) ltac:(lra)
-        (fst z') (snd z') (fst z) (snd z) Z1' Z1 Z2' Z2) as [[D _] _].
-      unfold P. rewrite !L1 by lra. match goal with |- _ <= Rabs ?f + _ =>
-        replace f with (fst z + time (fst z) (snd z) - (fst z' + time (fst z') (snd z'))) by ring end. exact D.
-    + destruct (differences _ _ _ _ _ _ _ (rf_flights _ _ _ _ _ _ _ _ _ _ F0) A b0 g0 g1 p q r s
-        (rf_within _ _ _ _ _ _ _ _ _ _ F0) (rf_rates _ _ _ _ _ _ _ _ _ _ F0) ltac:(lra)
-        (fst z') (snd z') (fst z) (snd z) Z1' Z1 Z2' Z2) as [[D _] _].
-      unfold P. rewrite !L0 by lra. match goal with |- _ <= Rabs ?f + _ =>
-        replace f with (fst z + time (fst z) (snd z) - (fst z' + time (fst z') (snd z'))) by ring end. exact D.
-  - intros i j z z' _ Vz Vz'. apply R' in Vz, Vz'. destruct Vz as [Z1 Z2], Vz' as [Z1' Z2']. unfold In_ in Z1, Z1'. destruct i.
-    + apply (differences _ _ _ _ _ _ _ (rf_flights _ _ _ _ _ _ _ _ _ _ F1) a1 B g0 g1 p q r s
-        (rf_within _ _ _ _ _ _ _ _ _ _ F1) (rf_rates _ _ _ _ _ _ _ _ _ _ F1) ltac:(lra)); auto.
-    + apply (differences _ _ _ _ _ _ _ (rf_flights _ _ _ _ _ _ _ _ _ _ F0) A b0 g0 g1 p q r s
-        (rf_within _ _ _ _ _ _ _ _ _ _ F0) (rf_rates _ _ _ _ _ _ _ _ _ _ F0) ltac:(lra)); auto.
+  - intros i j z z' _ Vz Vz'. apply (Df i z z' Vz Vz').
+  - intros i j z z' _ Vz Vz'. apply (Df i z z' Vz Vz').
   - intros i. assert (c * (B - A + (g1 - g0) / c) = c * (B - A) + (g1 - g0)) as -> by (field; lra).
     assert (0 < c * (B - A)) by (apply Rmult_lt_0_compat; lra). unfold x0, x1. destruct i; lra.
   - intros i e1 z z' [N1 N2]. assert (0 <= e1) by (eapply Rle_trans; [apply Rabs_pos|exact N1]).

@@ -1,7 +1,8 @@
 (* Covering and expansion give the full shift on two symbols. No numbers, no impact map. *)
-From Coq Require Import Reals Psatz Lia.
+From Coq Require Import Reals Psatz Lia List.
 From Coquelicot Require Import Coquelicot.
-From Oscillator Require Import Impact.
+From Oscillator Require Import Impact Graph Paths.
+Import ListNotations.
 Open Scope R_scope.
 
 Section Shift.
@@ -10,7 +11,7 @@ Variables A b0 a1 B : R.
 Notation In_ := (In_ A b0 a1 B).
 Notation itinerary := (itinerary N A b0 a1 B).
 Notation stays := (stays N A B).
-Notation visits := (visits N A b0 a1 B).
+Notation visits := (Impact.visits N A b0 a1 B).
 Notation cylinders := (cylinders N A b0 a1 B).
 Notation full_shift := (full_shift N A b0 a1 B).
 
@@ -24,6 +25,7 @@ Hypothesis sign : forall i, s i = 1 \/ s i = -1.
 Hypothesis N_f : forall i x y, In_ i x -> (N x y <-> y = f x).
 Hypothesis expand : forall i x y, In_ i x -> In_ i y -> x <= y ->
   m * (y - x) <= s i * (f y - f x) <= M * (y - x).
+Hypothesis smooth : forall i x, In_ i x -> continuity_pt f x.
 Hypothesis cover : forall i y, A <= y <= B -> exists x, In_ i x /\ f x = y.
 Hypothesis escape : forall x y, b0 < x < a1 -> N x y -> ~ A <= y <= B.
 
@@ -55,17 +57,6 @@ Proof.
   pose proof (Rabs_pos (x - z)). assert (Rabs (x - z) = 0) by nra.
   destruct (Req_dec (x - z) 0) as [|D]; [lra|]. apply Rabs_pos_lt in D. lra.
 Qed.
-
-Lemma g_f i x : In_ i x -> A <= f x <= B -> g i (f x) = x.
-Proof.
-  intros X F. destruct (g_spec i (f x) F) as [G E].
-  destruct (expand_abs i (g i (f x)) x G X) as [L _]. rewrite E, Rminus_eq_0, Rabs_R0 in L.
-  pose proof (Rabs_pos (g i (f x) - x)). assert (Z : Rabs (g i (f x) - x) = 0) by nra.
-  destruct (Req_dec (g i (f x) - x) 0) as [|D]; [lra|]. apply Rabs_pos_lt in D. lra.
-Qed.
-
-Lemma g_in i y : A <= y <= B -> A <= g i y <= B.
-Proof. intros Y. apply (In_I i), g_spec; auto. Qed.
 
 Lemma g_contract i y z : A <= y <= B -> A <= z <= B -> Rabs (g i y - g i z) <= Rabs (y - z) / m.
 Proof.
@@ -124,13 +115,6 @@ Qed.
 
 Hypothesis m_gt_1 : 1 < m.
 
-Lemma g_shrink i y z c : A <= y <= B -> A <= z <= B -> Rabs (y - z) <= c ->
-  Rabs (g i y - g i z) <= c / m.
-Proof.
-  intros Y Z C. eapply Rle_trans; [apply g_contract; auto|].
-  apply Rmult_le_compat_r; auto. apply Rlt_le, Rinv_0_lt_compat. lra.
-Qed.
-
 Lemma power n : 0 < m ^ n /\ forall c, c / m ^ S n = c / m ^ n / m.
 Proof.
   assert (0 < m ^ n) by (apply pow_lt; lra). split; auto. intros c. simpl. field. lra.
@@ -150,108 +134,85 @@ Proof.
   destruct (small c _ D) as [n L]. specialize (H n). lra.
 Qed.
 
-Fixpoint approx (n : nat) (w : word) : R :=
-  match n with O => A | S n => g (w O) (approx n (shift w)) end.
+(* The orbits of words that agree in n letters. *)
+Definition along (w : word) (u : nat -> R) : Prop := forall k, In_ (w k) (u k) /\ N (u k) (u (S k)).
 
-Lemma approx_in n : forall w, A <= approx n w <= B.
-Proof. induction n; intros w; simpl; [lra|]. apply g_in; auto. Qed.
-
-Lemma approx_near n : forall k w, Rabs (approx n w - approx (n + k) w) <= (B - A) / m ^ n.
+Lemma near n : forall w w' u v, (forall k, (k < n)%nat -> w k = w' k) -> along w u -> along w' v ->
+  Rabs (u O - v O) <= (B - A) / m ^ n.
 Proof.
-  induction n; intros k w.
-  - replace ((B - A) / m ^ 0) with (B - A) by (simpl; field).
-    pose proof (approx_in 0 w). pose proof (approx_in (0 + k) w). apply Rabs_le. lra.
-  - rewrite (proj2 (power n)). apply g_shrink; auto using approx_in.
+  induction n; intros w w' u v E U V.
+  - pose proof (In_I _ _ (proj1 (U O))). pose proof (In_I _ _ (proj1 (V O))).
+    replace ((B - A) / m ^ 0) with (B - A) by (simpl; field). apply Rabs_le. lra.
+  - specialize (IHn (shift w) (shift w') (fun k => u (S k)) (fun k => v (S k))
+      ltac:(intros k K; apply E; lia) (fun k => U (S k)) (fun k => V (S k))). cbv beta in IHn.
+    destruct (U O) as [U0 U1], (V O) as [V0 V1]. rewrite <- (E O) in V0 by lia.
+    rewrite (proj1 (N_f _ _ _ U0) U1), (proj1 (N_f _ _ _ V0) V1) in IHn.
+    pose proof (expand_abs _ _ _ U0 V0) as [H _]. rewrite (proj2 (power n)).
+    set (e := (B - A) / m ^ n) in *. apply Rmult_le_reg_l with m; [lra|]. replace (m * (e / m)) with e by (field; lra). lra.
 Qed.
 
-Definition X (w : word) : R := real (Lim_seq (fun n => approx n w)).
+(* A word is a path of the graph with two cells and all arrows. *)
+Notation cells := [(A, b0); (a1, B)].
+Notation code i := (if i : bool then 1%nat else 0%nat).
 
-Lemma X_lim w : is_lim_seq (fun n => approx n w) (X w).
+Lemma spanned i : spans f (left cells (code i)) (right cells (code i)) A B.
 Proof.
-  apply Lim_seq_correct', ex_lim_seq_cauchy_corr. intros eps.
-  destruct (small (B - A) (eps / 2)) as [n H]; [apply is_pos_div_2|].
-  exists n. intros j k J K.
-  pose proof (approx_near n (j - n) w) as Hj. pose proof (approx_near n (k - n) w) as Hk.
-  replace (n + (j - n))%nat with j in Hj by lia. replace (n + (k - n))%nat with k in Hk by lia.
-  apply Rabs_le_between in Hj. apply Rabs_le_between in Hk. apply Rabs_def1; lra.
+  assert (E : In_ i (left cells (code i)) /\ In_ i (right cells (code i))) by (unfold Impact.In_, left, right; destruct i; simpl; lra).
+  destruct E as [L R]. destruct (cover i A) as (x & X & Ex); [lra|]. destruct (cover i B) as (y & Y & Ey); [lra|].
+  assert (O : forall z, In_ i z -> left cells (code i) <= z <= right cells (code i)) by (intros z Z; destruct i; exact Z).
+  pose proof (proj1 (f_mono i _ _ L X) ltac:(apply O, X)). pose proof (proj1 (f_mono i _ _ Y R) ltac:(apply O, Y)).
+  pose proof (proj1 (f_mono i _ _ L Y) ltac:(apply O, Y)). pose proof (proj1 (f_mono i _ _ X R) ltac:(apply O, X)).
+  unfold spans. destruct (sign i) as [S | S]; rewrite S in *; lra.
 Qed.
 
-Lemma X_near n w : Rabs (approx n w - X w) <= (B - A) / m ^ n.
+Lemma exists_X w : exists x, itinerary x w.
 Proof.
-  apply (is_lim_seq_le (fun k => Rabs (approx n w - approx (n + k) w)) (fun _ => (B - A) / m ^ n)
-    (Rabs (approx n w - X w)) ((B - A) / m ^ n)).
-  - intros k; apply approx_near.
-  - apply (is_lim_seq_abs _ (approx n w - X w)), (is_lim_seq_minus' _ _ (approx n w) (X w)).
-    + apply is_lim_seq_const.
-    + apply (is_lim_seq_ext (fun k => approx (k + n) w)); [intros k; f_equal; lia|].
-      apply (is_lim_seq_incr_n (fun k => approx k w)), X_lim.
-  - apply is_lim_seq_const.
+  set (arrows := [(0, 0); (0, 1); (1, 0); (1, 1)]%nat).
+  assert (Is : forall i j, arrow arrows i j -> exists c d : bool, i = code c /\ j = code d).
+  { intros i j [E|[E|[E|[E|[]]]]]; injection E as <- <-;
+      [exists false, false|exists false, true|exists true, false|exists true, true]; auto. }
+  destruct (orbit f cells arrows) with (w := fun n => code (w n)) as (x & H).
+  - intros i j C. destruct (Is i j C) as ([] & [] & -> & ->); unfold left, right; simpl; lra.
+  - intros i j x C X. destruct (Is i j C) as (c & _ & -> & _). apply (smooth c). destruct c; exact X.
+  - intros i j C. destruct (Is i j C) as (c & d & -> & ->). pose proof (spanned c) as S.
+    unfold spans in *. destruct d; unfold left, right in *; simpl in *; lra.
+  - intros n. unfold arrow. destruct (w n), (w (S n)); simpl; auto.
+  - exists x, (fun n => iter f n x). split; [reflexivity|]. intros n.
+    assert (I : In_ (w n) (iter f n x)) by (specialize (H n); destruct (w n); exact H). split; [exact I|]. apply (N_f _ _ _ I). reflexivity.
 Qed.
 
-Lemma X_in w : A <= X w <= B.
+Definition X (w : word) : R := iota (fun x => itinerary x w).
+
+Lemma X_orbit w : exists u, u O = X w /\ along w u.
 Proof.
-  split.
-  - apply (is_lim_seq_le (fun _ => A) (fun n => approx n w) A (X w)).
-    intros n; apply approx_in. apply is_lim_seq_const. apply X_lim.
-  - apply (is_lim_seq_le (fun n => approx n w) (fun _ => B) (X w) B).
-    intros n; apply approx_in. apply X_lim. apply is_lim_seq_const.
+  apply (iota_correct (V := R_CompleteNormedModule) (fun x => itinerary x w)). destruct (exists_X w) as (x & u & <- & U).
+  exists (u O). split; [exists u; auto|]. intros y (v & <- & V). apply Rminus_diag_uniq, (vanish _ (B - A)). intros n.
+  apply (near n w w); auto.
 Qed.
 
-Lemma X_g w : X w = g (w O) (X (shift w)).
-Proof.
-  apply Rminus_diag_uniq, (vanish _ (2 * (B - A))). intros n.
-  pose proof (X_near (S n) w) as H. rewrite (proj2 (power n)) in H.
-  pose proof (g_shrink (w O) _ _ _ (approx_in n (shift w)) (X_in (shift w)) (X_near n (shift w))) as G.
-  change (g (w O) (approx n (shift w))) with (approx (S n) w) in G.
-  assert (L : (B - A) / m ^ n / m <= (B - A) / m ^ n).
-  { assert (0 <= (B - A) / m ^ n) by (apply Rdiv_le_0_compat; [lra | apply power]).
-    set (c := (B - A) / m ^ n) in *. apply Rmult_le_reg_r with m; [lra|].
-    replace (c / m * m) with c by (field; lra). nra. }
-  apply Rabs_le_between in H. apply Rabs_le_between in G.
-  replace (2 * (B - A) / m ^ n) with (2 * ((B - A) / m ^ n)) by (unfold Rdiv; ring).
-  apply Rabs_le. lra.
-Qed.
-
-Lemma X_In w : In_ (w O) (X w).
-Proof. rewrite X_g. apply g_spec, X_in. Qed.
-
-Lemma X_f w : f (X w) = X (shift w).
-Proof. rewrite X_g at 1. apply g_spec, X_in. Qed.
-
-Lemma X_N w : N (X w) (X (shift w)).
-Proof. apply (N_f (w O)); [apply X_In|]. symmetry. apply X_f. Qed.
-
-Fixpoint it (n : nat) (w : word) : word := match n with O => w | S n => shift (it n w) end.
-
-Lemma it_at n : forall w k, it n w k = w (n + k)%nat.
-Proof.
-  induction n; intros w k; simpl; auto. unfold shift. rewrite IHn. f_equal. lia.
-Qed.
-
-Lemma X_itinerary w : itinerary (X w) w.
-Proof.
-  exists (fun n => X (it n w)). split; auto. intros n. split.
-  - pose proof (X_In (it n w)) as H. rewrite it_at, Nat.add_0_r in H. auto.
-  - apply X_N.
-Qed.
-
-Lemma near n : forall w u, (forall k, In_ (w k) (u k) /\ N (u k) (u (S k))) ->
-  Rabs (u O - X w) <= (B - A) / m ^ n.
-Proof.
-  induction n; intros w u H.
-  - simpl. pose proof (In_I _ _ (proj1 (H O))). pose proof (X_in w).
-    replace ((B - A) / 1) with (B - A) by field. apply Rabs_le. lra.
-  - destruct (H O) as [I0 N0]. assert (E := proj1 (N_f _ _ _ I0) N0).
-    assert (I1 : A <= u 1%nat <= B) by apply (In_I _ _ (proj1 (H 1%nat))).
-    specialize (IHn (shift w) (fun k => u (S k)) (fun k => H (S k))). simpl in IHn.
-    rewrite X_g. rewrite <- (g_f (w O) (u O)), <- E by (rewrite <- ?E; auto).
-    rewrite (proj2 (power n)). apply g_shrink; auto using X_in.
-Qed.
+Lemma X_close n w w' : (forall k, (k < n)%nat -> w k = w' k) -> Rabs (X w - X w') <= (B - A) / m ^ n.
+Proof. intros E. destruct (X_orbit w) as (u & <- & U), (X_orbit w') as (v & <- & V). apply (near n w w'); auto. Qed.
 
 Lemma itinerary_X x w : itinerary x w -> x = X w.
 Proof.
-  intros [u [<- H]]. apply Rminus_diag_uniq, (vanish _ (B - A)). intros n. apply near; auto.
+  intros (u & <- & U). destruct (X_orbit w) as (v & <- & V). apply Rminus_diag_uniq, (vanish _ (B - A)). intros n.
+  apply (near n w w); auto.
 Qed.
+
+Lemma X_itinerary w : itinerary (X w) w.
+Proof. apply X_orbit. Qed.
+
+Lemma X_In w : In_ (w O) (X w).
+Proof. destruct (X_orbit w) as (u & <- & U). apply U. Qed.
+
+Lemma X_N w : N (X w) (X (shift w)).
+Proof.
+  destruct (X_orbit w) as (u & E & U). rewrite <- E. replace (X (shift w)) with (u 1%nat); [apply U|].
+  apply itinerary_X. exists (fun n => u (S n)). split; [reflexivity|]. intros n. apply U.
+Qed.
+
+Lemma X_f w : f (X w) = X (shift w).
+Proof. symmetry. apply (N_f (w O)); [apply X_In|apply X_N]. Qed.
 
 Lemma stays_X x : stays x -> exists w, x = X w.
 Proof.
@@ -261,17 +222,6 @@ Proof.
   destruct (Rle_dec (u n) b0) as [L|L]; unfold Impact.In_; [lra|].
   destruct (Rle_dec a1 (u n)) as [G|G]; [lra|].
   exfalso. apply (escape (u n) (u (S n))); auto; [lra|]. apply H.
-Qed.
-
-Lemma X_close n : forall w w', (forall k, (k < n)%nat -> w k = w' k) ->
-  Rabs (X w - X w') <= (B - A) / m ^ n.
-Proof.
-  induction n; intros w w' H.
-  - simpl. pose proof (X_in w). pose proof (X_in w').
-    replace ((B - A) / 1) with (B - A) by field. apply Rabs_le. lra.
-  - rewrite (X_g w), (X_g w'), <- (H O) by lia.
-    rewrite (proj2 (power n)). apply g_shrink; try apply X_in.
-    apply IHn. intros k K. apply (H (S k)). lia.
 Qed.
 
 Lemma X_apart n : forall w w', (forall k, (k < n)%nat -> w k = w' k) -> w n <> w' n ->

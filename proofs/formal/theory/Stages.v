@@ -80,25 +80,3 @@ Proof.
         (w3 * (xx m * u + xy m * v) + w4 * (yx m * u + yy m * v)) by ring. exact E2.
 Qed.
 End Enclosed.
-
-(* A test of boxes, on parts of one. (`if`, as Coq evaluates both sides of || and &&.) *)
-Fixpoint everywhere (test : I.type -> I.type -> bool) (depth : nat) (A B : I.type) : bool :=
-  if test A B then true else match depth with
-  | O => false
-  | S n => let (A1, A2) := I.bisect A in let (B1, B2) := I.bisect B in
-    if everywhere test n A1 B1 then if everywhere test n A1 B2 then
-    if everywhere test n A2 B1 then everywhere test n A2 B2 else false else false else false
-  end.
-
-Lemma everywhere_holds (P : R -> R -> Prop) test depth :
-  (forall A B x y, test A B = true -> holds A x -> holds B y -> P x y) ->
-  forall A B x y, everywhere test depth A B = true -> holds A x -> holds B y -> P x y.
-Proof.
-  intros T. induction depth as [|n IH]; intros A B x y E X Y; cbn [everywhere] in E;
-    (destruct (test A B) eqn:Q; [exact (T A B x y Q X Y)|]); [discriminate|].
-  pose proof (I.bisect_correct A (Xreal x) X) as SA. pose proof (I.bisect_correct B (Xreal y) Y) as SB.
-  destruct (I.bisect A) as [A1 A2], (I.bisect B) as [B1 B2]. cbn [fst snd] in SA, SB.
-  destruct (everywhere test n A1 B1) eqn:E1; [|discriminate]. destruct (everywhere test n A1 B2) eqn:E2; [|discriminate].
-  destruct (everywhere test n A2 B1) eqn:E3; [|discriminate].
-  destruct SA as [SA|SA], SB as [SB|SB]; eauto.
-Qed.

@@ -132,8 +132,7 @@ Proof.
     + unfold qg. auto using sub_holds, mul_holds.
     + unfold DQ_g, DP_g, arrival_g. field. auto.
   - unfold gamma_there, Rebounds.arrival. auto using sub_holds, mul_holds.
-  - intros k. unfold phase_there. apply sub_holds; [auto using add_holds|].
-    unfold Flights.turned. pose proof PI_RGT_0. apply mul_holds; [apply mul_holds; [apply I.fromZ_correct|apply I.pi_correct]|apply I.fromZ_correct].
+  - intros k. apply sub_holds; [auto using add_holds|apply turned_holds].
 Qed.
 End Values.
 
@@ -150,7 +149,7 @@ Definition good_part (c : piece) : bool :=
   | Some (T', u', v') => (T' =? T)%Z && (u' =? u)%Z && (v' =? v)%Z &&
       ((u <=? early c)%Z && (early c <? late c)%Z && (late c <=? v)%Z &&
        (above_zero (level_at a b d e (early c)) && above_zero (I.neg (level_at a b d e (late c))))) &&
-      (above_zero (phase_there c k) && above_zero (I.sub prec (turned 1) (phase_there c k))) &&
+      one_turn bits (phase_there c k) &&
       (at_most bits unit (gamma_there c) (b_high bound) && at_least bits unit (gamma_there c) (b_low bound)) &&
       (at_least bits unit (pp c) (b_p bound) && small bits unit (pg c) (b_q bound) && small bits unit (qp c) (b_r bound) && small bits unit (qg c) (b_s bound))
   | None => false
@@ -168,7 +167,7 @@ Lemma good_part_shows c phi : good_part c = true ->
 Proof.
   unfold good_part. intros H P. destruct (March.impact _ _ _ _ _ _ _ _ _ _ _ _ _) as [[[T' u'] v']|] eqn:Q; [|discriminate].
   rewrite !andb_true_iff, !Z.eqb_eq, !Z.leb_le, Z.ltb_lt in H.
-  destruct H as [[[[[[ET Eu] Ev] [[[uE EL] Lv] [Lo Hi]]] [P0 P1]] [G1 G0]] [[[Rp Rq] Rr] Rs]].
+  destruct H as [[[[[[ET Eu] Ev] [[[uE EL] Lv] [Lo Hi]]] It] [G1 G0]] [[[Rp Rq] Rr] Rs]].
   subst T' u' v'. apply (impact_flights bits unit side eta nu eps eta_pos) in Q. split.
   { exists (ratio (first_phase (flight c))), (ratio (last_phase (flight c))). split; [lra|exact Q]. }
   intros g G t.
@@ -180,9 +179,7 @@ Proof.
   assert (Fall : Restitution.height_t S' E' N' P' phi g t <> 0).
   { pose proof (fl_fall _ _ _ _ _ _ _ _ _ _ _ Q phi g t Ph G ltac:(lra)). lra. }
   destruct (values_hold c phi g t Ph G ltac:(lra) Fall) as ((Vp & Vq & Vr & Vs) & Vg & Vk). specialize (Vk k).
-  pose proof (above_zero_holds _ _ Vk P0). assert (T1 : holds (turned 1) (2 * PI * 1)).
-  { apply mul_holds; [apply mul_holds; [apply I.fromZ_correct|apply I.pi_correct]|apply I.fromZ_correct]. }
-  pose proof (above_zero_holds _ _ (sub_holds _ _ _ _ T1 Vk) P1).
+  apply (one_turn_holds bits _ _ Vk) in It.
   split; [split; [|split; [|split]]|split; [split|lra]]; eauto using small_holds, at_most_holds, at_least_holds.
 Qed.
 
@@ -197,9 +194,6 @@ Definition good_strip : bool :=
    at_most bits unit (number (left_edge s + at_left s) [-] turned k) A) &&
   (above_zero (level_at (right_edge s) (right_edge s) d e (at_right s)) &&
    at_least bits unit (number (right_edge s + at_right s) [-] turned k) B).
-
-Lemma turned_holds n : holds (turned n) (2 * PI * IZR n).
-Proof. apply mul_holds; [apply mul_holds; [apply I.fromZ_correct|apply I.pi_correct]|apply I.fromZ_correct]. Qed.
 
 Hypothesis good : good_strip = true.
 
@@ -221,13 +215,8 @@ Proof.
   assert (Lx : ratio (left_edge s - 1) < ratio (left_edge s)) by (apply ratio_lt; lia).
   assert (Rx : ratio (right_edge s) < ratio (right_edge s + 1)) by (apply ratio_lt; lia).
   assert (Fl : flights (ratio (left_edge s - 1)) (ratio (right_edge s + 1)) (ratio d) (ratio e) (ratio T) (ratio u) (ratio v)).
-  { split.
-    - destruct (All (ratio (left_edge s)) ltac:(lra)) as [(a & b & _ & F) _]. apply (fl_order _ _ _ _ _ _ _ _ _ _ _ F).
-    - intros phi g X. destruct (All phi X) as [(a & b & W & F) _]. apply (fl_possible _ _ _ _ _ _ _ _ _ _ _ F phi g W).
-    - intros phi g t X. destruct (All phi X) as [(a & b & W & F) _]. apply (fl_launch _ _ _ _ _ _ _ _ _ _ _ F phi g t W).
-    - intros phi g t X. destruct (All phi X) as [(a & b & W & F) _]. apply (fl_flight _ _ _ _ _ _ _ _ _ _ _ F phi g t W).
-    - intros phi g t X. destruct (All phi X) as [(a & b & W & F) _]. apply (fl_fall _ _ _ _ _ _ _ _ _ _ _ F phi g t W).
-    - intros phi g X. destruct (All phi X) as [(a & b & W & F) _]. apply (fl_end _ _ _ _ _ _ _ _ _ _ _ F phi g W). }
+  { split; [destruct (All (ratio (left_edge s)) ltac:(lra)) as [(a & b & _ & []) _]; auto|..];
+      intros phi; intros; destruct (All phi ltac:(assumption)) as [(a & b & W & []) _]; auto. }
   split; auto.
   - intros phi g X G. apply (All phi); lra.
   - intros phi g X G. apply (All phi); lra.
@@ -238,7 +227,7 @@ Proof.
     { pose proof (fl_order _ _ _ _ _ _ _ _ _ _ _ Fl).
       apply (time_bracket _ _ _ _ E0 _ _ _ _ _ _ _ Fl); try lra.
       apply (fl_flight _ _ _ _ _ _ _ _ _ _ _ Fl); lra. }
-    apply (at_most_holds bits unit _ _ _ (sub_holds _ _ _ _ (number_holds bits unit _) (turned_holds _))) in La.
+    apply (at_most_holds bits unit _ _ _ (sub_holds _ _ _ _ (number_holds bits unit _) (turned_holds bits _))) in La.
     rewrite ratio_add in La. lra.
   - intros g G. pose proof (above_zero_holds _ _ (level_at_holds (right_edge s) (right_edge s) d e (at_right s)
       (ratio (right_edge s)) g ltac:(lra) ltac:(lra)) Re) as Po.
@@ -246,7 +235,7 @@ Proof.
     { pose proof (fl_order _ _ _ _ _ _ _ _ _ _ _ Fl).
       apply (time_bracket _ _ _ _ E0 _ _ _ _ _ _ _ Fl); try lra.
       apply (fl_end _ _ _ _ _ _ _ _ _ _ _ Fl); lra. }
-    apply (at_least_holds bits unit _ _ _ (sub_holds _ _ _ _ (number_holds bits unit _) (turned_holds _))) in Ra.
+    apply (at_least_holds bits unit _ _ _ (sub_holds _ _ _ _ (number_holds bits unit _) (turned_holds bits _))) in Ra.
     rewrite ratio_add in Ra. lra.
 Qed.
 
@@ -267,8 +256,8 @@ Proof.
   apply (ratio_le unit) in Lx, Rx, Lg, Rg, ut0, t0v, ut, tv. destruct strip_facts as [W Fl _ _ Lap _ _].
   apply (above_zero_holds _ _ (level_at_holds x x g g t0 (ratio x) (ratio g) ltac:(lra) ltac:(lra))) in Po.
   apply (above_zero_holds _ _ (neg_holds _ _ (level_at_holds x x g g t (ratio x) (ratio g) ltac:(lra) ltac:(lra)))) in Neg.
-  apply (above_zero_holds _ _ (sub_holds _ _ _ _ (number_holds bits unit _) (turned_holds _))) in Be.
-  apply (above_zero_holds _ _ (sub_holds _ _ _ _ (turned_holds _) (number_holds bits unit t))) in Sh.
+  apply (above_zero_holds _ _ (sub_holds _ _ _ _ (number_holds bits unit _) (turned_holds bits _))) in Be.
+  apply (above_zero_holds _ _ (sub_holds _ _ _ _ (turned_holds bits _) (number_holds bits unit t))) in Sh.
   pose proof (fl_order _ _ _ _ _ _ _ _ _ _ _ Fl) as Or.
   assert (Bt : ratio t0 < time (ratio x) (ratio g) < ratio t)
     by (apply (time_bracket _ _ _ _ E0 _ _ _ _ _ _ _ Fl); lra).

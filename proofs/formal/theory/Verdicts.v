@@ -1,7 +1,7 @@
 (* The paper's claims on sets and slopes as printed, where they hold and where they fail. *)
 From Coq Require Import Reals ZArith Psatz Lia.
 From Coquelicot Require Import Coquelicot.
-From Oscillator Require Import Impact Calculus Flight Shift Corrected.
+From Oscillator Require Import Impact Calculus Flight Shift Corrected Paths.
 Open Scope R_scope.
 
 Lemma shorter m lo z w : 0 < lo < m -> 0 <= z -> 0 < w -> m * z <= w -> z < w / lo.
@@ -37,44 +37,14 @@ Lemma impact_exists phi T v : 0 < T ->
   exists t, first_impact phi t.
 Proof.
   intros T0 La v0 En.
-  assert (Cg : forall t, continuous (gap phi) t).
-  { intros t. apply (ex_derive_continuous (K := R_AbsRing) (V := R_NormedModule)).
+  pose proof (launch side eta nu eta_pos phi T La) as Up.
+  assert (Tv : T < v) by (apply Rnot_le_lt; intros G; specialize (Up v); lra).
+  destruct (first_hit (fun t => - gap phi t) T v 0) as (t & It & Z & F); [lra| |specialize (Up T); lra|].
+  { intros s _. apply continuity_pt_opp, continuity_pt_filterlim,
+      (ex_derive_continuous (K := R_AbsRing) (V := R_NormedModule)).
     eexists. apply (d_gap_t side eta nu eta_pos). }
-  set (up := fun z => 0 <= z <= v /\ forall s, 0 < s <= z -> 0 < gap phi s).
-  destruct (completeness up) as [t [U L]].
-  { exists v. intros z [Z _]. lra. }
-  { exists 0. split; [lra|]. intros s S. lra. }
-  assert (Tv : T < v).
-  { apply Rnot_le_lt. intros G. assert (0 < gap phi v); [|lra].
-    apply (launch side eta nu eta_pos phi T La). lra. }
-  assert (Tt : T <= t).
-  { apply U. split; [lra|]. intros s S. apply (launch side eta nu eta_pos phi T La). lra. }
-  assert (tv : t <= v) by (apply L; intros z [Z _]; lra).
-  assert (Pos : forall s, 0 < s < t -> 0 < gap phi s).
-  { intros s S. apply Rnot_le_lt. intros G.
-    assert (t <= s); [|lra]. apply L. intros z [Z Hz]. apply Rnot_lt_le. intros C.
-    specialize (Hz s). lra. }
-  exists t. split; [lra|]. split; [|auto].
-  destruct (Rtotal_order (gap phi t) 0) as [N|[Z|P]]; auto; exfalso.
-  - assert (C : locally t (fun s => 0 < - gap phi s)).
-    { apply (positive_near (fun s => - gap phi s) t (- gap_t side eta nu phi t)); [|lra].
-      apply (is_derive_opp (gap phi)), (d_gap_t side eta nu eta_pos). }
-    destruct C as [e He]. pose proof (cond_pos e).
-    set (s := Rmax (t / 2) (t - e / 2)).
-    assert (Ss : t / 2 <= s /\ t - e / 2 <= s /\ s < t)
-      by (unfold s; split; [apply Rmax_l|split; [apply Rmax_r|apply Rmax_lub_lt; lra]]).
-    assert (Bs : ball t e s).
-    { unfold ball; simpl; unfold AbsRing_ball, abs, minus, plus, opp; simpl. apply Rabs_def1; lra. }
-    specialize (He s Bs). specialize (Pos s). lra.
-  - destruct (positive_near (gap phi) t _ (d_gap_t side eta nu eta_pos phi t) P) as [e He].
-    pose proof (cond_pos e).
-    assert (t <> v) by (intros ->; lra).
-    set (z := Rmin v (t + e / 2)).
-    assert (Zz : z <= v /\ z <= t + e / 2 /\ t < z)
-      by (unfold z; split; [apply Rmin_l|split; [apply Rmin_r|apply Rmin_glb_lt; lra]]).
-    assert (z <= t); [|lra]. apply U. split; [lra|]. intros s S.
-    destruct (Rlt_dec s t); [apply Pos; lra|]. apply He.
-    unfold ball; simpl; unfold AbsRing_ball, abs, minus, plus, opp; simpl. apply Rabs_def1; lra.
+  exists t. split; [lra|split; [lra|]]. intros s S. destruct (Rle_dec s T); [apply Up; lra|].
+  specialize (F s ltac:(lra)). lra.
 Qed.
 
 Section Branch.
@@ -89,9 +59,7 @@ Lemma slope_of_point p s t m M : a < p < b -> u <= s <= v /\ u <= t <= v ->
 Proof.
   intros P W G H S. exists (rate side eta nu p).
   split; [apply (slope_at_rate side eta nu a b Re p P)|].
-  assert (s < impact_time p < t); [|apply S; lra].
-  apply (bracket side eta nu eta_pos a b T u v Br p p (fun _ => s) (fun _ => t)); try lra;
-    intros x X; replace x with p by lra; auto.
+  apply S. pose proof (branch_bracket side eta nu eta_pos a b T u v Br p s t ltac:(lra) (proj1 W) (proj2 W) G H). lra.
 Qed.
 
 (* The image of one phase, by which H4 is refuted. *)
@@ -101,9 +69,7 @@ Lemma image_of_point p s t k l r : a <= p <= b -> u <= s <= v /\ u <= t <= v ->
   exists psi, next p psi /\ l <= psi <= r.
 Proof.
   intros P W G H L R Ls Rt.
-  assert (s < impact_time p < t).
-  { apply (bracket side eta nu eta_pos a b T u v Br p p (fun _ => s) (fun _ => t)); try lra;
-      intros x X; replace x with p by lra; auto. }
+  pose proof (branch_bracket side eta nu eta_pos a b T u v Br p s t ltac:(lra) (proj1 W) (proj2 W) G H).
   exists (p + impact_time p - 2 * PI * IZR k). split; [|lra].
   exists (impact_time p), k. split; [|split; auto; lra].
   apply (re_impact _ _ _ _ _ Re p P).
@@ -118,9 +84,7 @@ Lemma long_preimage p s t k m M lo c0 d0 y : a < p < b -> u <= s <= v /\ u <= t 
     (d - c) / lo <= q - p.
 Proof.
   intros P W G H S m0 Ml py C0 D0 Lc Ld.
-  assert (I : s < impact_time p < t).
-  { apply (bracket side eta nu eta_pos a b T u v Br p p (fun _ => s) (fun _ => t)); try lra;
-      intros x X; replace x with p by lra; auto. }
+  pose proof (branch_bracket side eta nu eta_pos a b T u v Br p s t ltac:(lra) (proj1 W) (proj2 W) G H) as I.
   specialize (S (impact_time p) ltac:(lra)). fold (rate side eta nu p) in S.
   assert (N : locally p (fun q => (0 <= q - p + (rate side eta nu p) / 2 /\ a < q < b /\ q < y) /\
     (c0 <= lift q - 2 * PI * IZR k <= d0) /\ m / 2 <= rate side eta nu q <= (M + lo) / 2)).

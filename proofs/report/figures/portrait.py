@@ -12,6 +12,7 @@ from proofs.report.figures.style import (
     ORANGE,
     PROVED,
     RED,
+    legend_below,
     proved_boxes,
     sheet,
     style,
@@ -35,21 +36,25 @@ def portrait(points: Any, variables: Sequence[str], proved: Sequence[Conclusion]
         x, y = points[:, 0], (range(len(points)) if flat else points[:, 1])
         look = {"color": GREY, "markersize": 1, "rasterized": True}  # thousands of points
         axes.plot(x, y, ".", label="sampled, not proved", **look)
+        label = "proved: sets of a horseshoe"
         for entropy in (each for each in proved if isinstance(each, Entropy)):
             map_ = entropy.graph.covers[0].local.map
             for node in entropy.graph.nodes:
-                _draw_set(axes, node, map_.periods(_BITS), flat)
+                _draw_set(axes, node, map_.periods(_BITS), flat, label)
+                label = ""
         _draw_orbits(axes, [each for each in proved if isinstance(each, PeriodicOrbit)], flat)
         axes.set_xlabel(variables[0])
         axes.set_ylabel("" if flat else variables[1])
-        axes.legend(loc="upper right")
+        legend_below(drawing, axes, 3)
         return svg_of(drawing, "portrait", f"{', '.join(variables)}: proved, over sampled", 150)
 
 
-def _draw_set(axes: Any, node: HSet, periods: Mapping[int, Enclosure], flat: bool) -> None:
+def _draw_set(
+    axes: Any, node: HSet, periods: Mapping[int, Enclosure], flat: bool, label: str
+) -> None:
     """Fill an h-set, its centre's angles being reduced; on the line its interval."""
     if flat:
-        axes.axvspan(*map(float, node.span()), color=ORANGE, alpha=0.5, gid=PROVED)
+        axes.axvspan(*map(float, node.span()), color=ORANGE, alpha=0.5, gid=PROVED, label=label)
         return
     centre = [
         float(c) % float(periods[k].range[0]) if k in periods else float(c)
@@ -59,7 +64,8 @@ def _draw_set(axes: Any, node: HSet, periods: Mapping[int, Enclosure], flat: boo
         [x + float(row[0] * p + row[1] * q) for x, row in zip(centre, node.matrix, strict=True)]
         for p, q in _CORNERS
     ]
-    axes.fill(*zip(*corners, strict=True), color=ORANGE, ec=ORANGE, lw=2, gid=PROVED)
+    look = {"color": ORANGE, "ec": ORANGE, "lw": 2, "gid": PROVED, "label": label}
+    axes.fill(*zip(*corners, strict=True), **look)
 
 
 def _draw_orbits(axes: Any, orbits: Sequence[PeriodicOrbit], flat: bool) -> None:

@@ -63,9 +63,12 @@ def _motions(axes: Axes, epsilon: float) -> None:
         (style.ORANGE, style.RED, style.GREY, "#222222"), _STARTS, strict=True
     ):
         points = [(x % math.tau, y) for x, y in orbit(epsilon, phase, c)]
-        for first, second in pairwise(points):
-            if abs(first[0] - second[0]) < math.pi:
-                axes.plot(*zip(first, second, strict=True), color=colour, lw=0.5)
+        joined = points[:1]
+        for before, point in pairwise(points):
+            if abs(before[0] - point[0]) > math.pi:  # the phase passes 2 pi
+                joined.append((math.nan, math.nan))
+            joined.append(point)
+        axes.plot(*zip(*joined, strict=True), color=colour, lw=0.5)
         axes.plot(*zip(*points, strict=True), ".", color=colour, markersize=5, label=label)
         label = "_"
 

@@ -54,6 +54,7 @@ _SPARE = re.compile(
     r"|; font-family: [^;\"]*| transform=\"rotate\(-0 [^\"]*\"",
     re.DOTALL,
 )
+_GROUP_OF_ONE = re.compile(r"<g>\n(<[^g/].*\n)</g>\n")
 _MADE = re.compile(r' id="([^"]+)"')
 _USED = re.compile(r'(?<=="#)[^"]+|(?<=url\(#)[^)]+')
 
@@ -172,7 +173,10 @@ def svg_of(drawing: Drawing, name: str, title: str, dpi: int = 72) -> str:
     short = {long: f"{name}-{k}" for k, long in enumerate(dict.fromkeys(_USED.findall(text)))}
     text = _MADE.sub(lambda made: f' id="{short[made[1]]}"' if made[1] in short else "", text)
     text = _USED.sub(lambda used: short[used[0]], text)
-    return re.sub(r"\s*\n\s*", "\n", text).strip() + "\n"
+    text = re.sub(r"\s*\n\s*", "\n", text).strip() + "\n"
+    while (less := _GROUP_OF_ONE.sub(r"\1", text)) != text:
+        text = less
+    return text
 
 
 def _shortened(attribute: re.Match[str]) -> str:

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import Any
 
+from intervals import Undecided
 from proofs.report.figures import style
 from proofs.report.figures.figure import Figure, all_of, the
 from proofs.report.figures.style import Axes, Drawing
@@ -67,12 +68,14 @@ def _named(axes: Axes, x: list[float], y: list[float], name: str, colour: str = 
 
 def plot_a(proved: Context) -> Drawing:
     """Draw figure 7a for both signs of nu: eta on a logarithmic axis."""
-    found = sorted(all_of(proved, EtaWindows), key=lambda each: -each.nu)
+    sides = sorted(all_of(proved, EtaWindows), key=lambda each: -each.nu)
+    if len(sides) < 2:
+        raise Undecided("windows in eta are not proved for both signs of nu")
     drawing, both = style.sheet(5.4, 2, 1, sharex=True)
-    for axes, each in zip(both, found, strict=True):
+    for axes, each in zip(both, sides, strict=True):
         late = [(1, *each.late)] if each.late else []
         _against_eta(axes, each.nu, each.low, [*_numbered(each.ends), *late])
-    both[1].set(xlabel=r"$\eta$", xscale="log", xlim=(0.8 * float(found[0].low), _WIDEST))
+    both[1].set(xlabel=r"$\eta$", xscale="log", xlim=(0.8 * float(sides[0].low), _WIDEST))
     style.legend_below(drawing, both[0], 2)
     return drawing
 

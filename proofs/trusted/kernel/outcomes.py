@@ -155,9 +155,9 @@ class Graze(Conclusion):
         hit, missed = ("smaller", "greater") if self.rises else ("greater", "smaller")
         return (
             f"for {flight.definition}: {f'for any {box_text(sides, names)} ' if names else ''}"
-            f"exactly one `{free}` in {show_range(side)} is followed by a graze: at a `{t}` in "
-            f"{window} `{gap}` = `D({gap}, {t})` = 0 < `D({gap}, {t}, {t})`, and all gaps are > 0 "
-            f"before. After {hit} `{free}` there the first impact is transversal, at a `{t}` in "
+            f"exactly one `{free}` in {show_range(side)} has a graze at a `{t}` in {window}, where "
+            f"`{gap}` = `D({gap}, {t})` = 0 < `D({gap}, {t}, {t})`, and all gaps are > 0 before. "
+            f"After {hit} `{free}` there the first impact is transversal, at a `{t}` in "
             f"{window}, after {missed} ones there is none up to `{t}` = {show(self.time[1])}."
         )
 

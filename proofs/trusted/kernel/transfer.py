@@ -15,8 +15,6 @@ from proofs.trusted.kernel.elementary import exp, log, log_of
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range, hull, within
 
-_BLOCK = 16  # coefficients that are summed with equally many bits
-
 
 class Branches(Protocol):
     """Functions g_1, ..., g_N, real on the reals, continuous on an ellipse, analytic inside."""
@@ -92,39 +90,16 @@ class Series:
         """A bound of the second derivative by the angle."""
         return Fraction(self._steepest, 1 << self.bits)
 
-    @cached_property
-    def _blocks(self) -> list[tuple[Sequence[int], int]]:
-        """The coefficients but the first from the last on, with the bits of t that they need not.
-
-        The sums b_k below are at most those of (j - k + 1) (|c_j| + 2) over j >= k.
-        """
-        blocks, rise, reach = list[tuple[Sequence[int], int]](), 0, 0
-        for stop in range(len(self.coefficients), 1, -_BLOCK):
-            block = self.coefficients[max(1, stop - _BLOCK) : stop][::-1]
-            for c in block:
-                rise += abs(c) + 2
-                reach += rise
-            blocks.append((block, max(0, self.bits - int(reach).bit_length())))
-        return blocks
-
-    @cached_property
-    def _work(self) -> int:
-        sizes = ((len(block), self.bits - cut >> 7) for block, cut in self._blocks)
-        return sum(count * (1 + (size * size >> 5)) for count, size in sizes)
-
     def near(self, t: int) -> int:
         """Return about the value at u, |u| <= 1, for t = 2 u in units of 2^-bits (Clenshaw).
 
-        b_k = c_k + 2 u b_(k+1) - b_(k+2), each rounded by less than one unit, and 2u by less than
-        one unit in the product: the result is exactly that of c_k with these errors, so it is off
-        by less than two units for each c_k.
+        b_k = c_k + 2 u b_(k+1) - b_(k+2), each rounded by less than one unit: the result is exactly
+        that of c_k with these errors, so it is off by less than a unit for each c_k.
         """
-        METER.get().spend(self._work)
+        METER.get().spend(len(self.coefficients) * (1 + (self.bits >> 7) ** 2 // 32))
         now = before = 0
-        for block, cut in self._blocks:
-            few, up = t >> cut, self.bits - cut
-            for c in block:
-                now, before = c + (few * now >> up) - before, now
+        for c in self.coefficients[:0:-1]:
+            now, before = c + (t * now >> self.bits) - before, now
         return self.coefficients[0] + (t * now >> (self.bits + 1)) - before
 
     def __call__(self, u: Enclosure) -> Enclosure:

@@ -1,4 +1,4 @@
-"""Rules: zeros of functions, their existence, uniqueness, brackets."""
+"""Rule: exactly one zero of a map in a box, and the operator of Krawczyk that proves it."""
 
 from __future__ import annotations
 
@@ -21,37 +21,14 @@ from proofs.trusted.kernel.enclose import (
     is_narrower,
     point_box,
     read_box,
-    sign_on,
     tried,
 )
-from proofs.trusted.kernel.formulas import read_formulas
 from proofs.trusted.kernel.maps import Map
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.kernel.parametric import moved
-from proofs.trusted.kernel.trees import Derivative, Tree, Variable
-from proofs.trusted.kernel.values import Value
-from proofs.trusted.numbers import Range, hull, show_range, within
+from proofs.trusted.numbers import hull
 
 Rows = Sequence[Sequence[Fraction]]
-
-
-@dataclass(frozen=True)
-class Zero(Conclusion):
-    """A function of one variable has a zero in a bracket; perhaps the only one in an interval."""
-
-    function: Tree
-    variable: Variable
-    interval: Range
-    bracket: Range
-    only: bool
-
-    @property
-    def sentence(self) -> str:
-        """Return the statement."""
-        place = f"`{self.function}` has a zero `{self.variable}` in {show_range(self.bracket)}"
-        return (
-            f"{place}, and no other in {show_range(self.interval)}." if self.only else f"{place}."
-        )
 
 
 @dataclass(frozen=True)
@@ -93,33 +70,6 @@ class Piece(NamedTuple):
         """Return the smallest box around it."""
         ends = [self.cut(axis, x) for x in self.box[axis]]
         return tuple(hull(sides) for sides in zip(*ends, strict=True))
-
-
-def zero(context: Context, reader: Reader) -> Zero:
-    """Rule `zero`: {function F of one variable x, value, bracket}.
-
-    Hypotheses: `value` is a `formula-value` step about F, or about D(F, x), on an interval that
-    contains the bracket; F has opposite strict signs at the ends of the bracket. Conclusion: F has
-    a zero in the bracket; if the step bounds D(F, x), and away from 0, then it is the only zero in
-    the interval. Proof. F is defined on the interval, hence continuous (Bolzano); if D(F, x) has
-    one sign it is monotone.
-    """
-    function, value_of, bracket_of = reader.fields("function", "value", "bracket")
-    formulas, step = read_formulas(function), context.step(value_of, Value)
-    if len(step.box) != 1 or formulas.variables != tuple(step.sides):
-        raise value_of.fail("a step about a function of this variable alone is expected")
-    (own,), bracket = formulas.trees, bracket_of.range()
-    ((variable, interval),) = step.box
-    slope = Derivative((variable.name,), (own,))
-    if step.function not in (own, slope):
-        raise value_of.fail("the step is about another function")
-    if not within(bracket, interval):
-        raise bracket_of.fail("the bracket leaves the interval of the step")
-    first, last = (sign_on(formulas, point_box((end,))) for end in bracket)
-    if first == last:
-        raise Unproved(f"the same sign at both ends of {show_range(bracket)}")
-    only = step.function == slope and not step.bounds[0] <= 0 <= step.bounds[1]
-    return Zero(own, variable, interval, bracket, only)
 
 
 def unique_zero(context: Context, reader: Reader) -> UniqueZero:

@@ -55,9 +55,9 @@ def missteps(*_: str) -> str:
         "-1/2), 0 < psi_k < pi, where (10) is < 0 but at t = 4 pi n, where it is 0. (3) At (1/2, "
         "-1/2), psi_k = -1/1000000, delta = 1/100 the impact is at t < 9.4247, between the signs - "
         "at 9.42 and + at 9.4247; s_n = -1 for n = 1, ..., 1256, so the phase returned is off by "
-        "more than 3. (4) At (1/2, -1/2), psi_k = 3.87, delta = 1/100 the impact is at 0.001 < t < "
-        "0.01, and s_1 = s_2 = 1 is the sign below the table: the phase returned is off by more "
-        "than 2 delta."
+        "more than 3, on the line. (4) At (1/2, -1/2), psi_k = 3.87, delta = 1/100 the impact is "
+        "at 0.001 < t < 0.01, and s_1 = s_2 = 1 is the sign below the table: the phase returned is "
+        "off by more than 2 delta, on the line."
     )
 
 

@@ -10,10 +10,9 @@ import pytest
 
 from intervals import IntervalArray
 from proofs.benchmark import __main__ as command
-from proofs.benchmark import arrays, horseshoe, operations
+from proofs.benchmark import horseshoe, operations
 from proofs.benchmark.__main__ import main
-from proofs.benchmark.curves import Curve, Point
-from proofs.benchmark.diagrams import Diagram
+from proofs.benchmark.curves import Curve, Diagram, Point
 from proofs.benchmark.measure import Row
 from proofs.benchmark.operations import ARRAY
 from proofs.benchmark.page import Section
@@ -97,22 +96,22 @@ def test_without_matplotlib_the_page_has_no_pictures(monkeypatch, tmp_path, caps
 # -- arrays of other packages ----------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", arrays.NAMES)
-@pytest.mark.parametrize("package", arrays.packages())
+@pytest.mark.parametrize("name", operations.NAMES)
+@pytest.mark.parametrize("package", operations.packages())
 def test_packages_do_the_same_work_and_widths_are_counted(package, name):
     lower = np.linspace(0.1, 3, 40)
     upper = lower + 2.0**-9
-    p = arrays.packages()[package]
-    beyond = arrays.excess(p, name, lower, upper)
+    p = operations.packages()[package]
+    beyond = operations.excess(p, name, lower, upper)
     assert 0 <= beyond.max() <= (3 if package == "IntervalArray" else 1)
 
     wider = p._replace(ends=lambda x: (p.ends(x)[0], np.nextafter(p.ends(x)[1], np.inf)))
-    assert arrays.excess(wider, name, lower, upper).mean() > beyond.mean()
+    assert operations.excess(wider, name, lower, upper).mean() > beyond.mean()
 
 
 def test_a_row_for_each_operation_and_package():
-    section = arrays.measure("smallest", lambda _: None)
-    assert len(section.rows) == len(arrays.NAMES) * len(arrays.packages())
+    section = operations.measure_arrays("smallest", lambda _: None)
+    assert len(section.rows) == len(operations.NAMES) * len(operations.packages())
     assert all("ulps" in row.measured for row in section.rows)
     assert IntervalArray.__name__ in section.rows[0].name
 

@@ -15,8 +15,7 @@ import pytest
 from intervals import Undecided
 from proofs.benchmark import codac_server, horseshoe, peers, slopes, tasks
 from proofs.benchmark.__main__ import main
-from proofs.benchmark.curves import Curve, Point
-from proofs.benchmark.diagrams import Diagram, svg
+from proofs.benchmark.curves import Curve, Diagram, Point, svg
 from proofs.benchmark.peers import CODAC, FLINT, IV, OURS, arithmetic
 
 DOMAINS = tasks.DOMAINS

@@ -31,8 +31,8 @@ def certificate(folder, *options):
 
 @cache
 def paper_case():
-    """The case of the paper's certificate, with machine floats."""
-    return case(plan(PAPER.read_text()), "0", floats=True)
+    """The case of the paper's certificate."""
+    return case(plan(PAPER.read_text()), "0")
 
 
 def proved(base):
@@ -42,7 +42,7 @@ def proved(base):
         fcntl.flock(lock, fcntl.LOCK_EX)
         if not folder.exists():
             with (base / "shown").open("w") as shown, redirect_stdout(shown):
-                arguments = [str(PAPER), "--floats", "--out", str(folder)]
+                arguments = [str(PAPER), "--out", str(folder)]
                 assert formal.main([*arguments, "--json", str(base / "answer.json")]) == 0
     return folder
 

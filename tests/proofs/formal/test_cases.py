@@ -71,7 +71,7 @@ def test_every_theorem_stands_in_the_list_whose_axioms_are_printed():
 def test_a_branch_that_decreases_is_stated_as_such(tmp_path):
     asked = plan(certificate(tmp_path, *DECREASING))
     assert asked.headline.signs == (-1, -1) and not asked.headline.is_corrected
-    said = statements(case(asked, "x", floats=True))
+    said = statements(case(asked, "x"))
     assert "(-1) (-1)" in said["horseshoe_theorem"] and "H5_verified" in said
     assert "d < (21 / 5)" in said["H1_refuted"] and "d < 0" in said["H3_refuted"]
 
@@ -80,7 +80,7 @@ def test_where_nothing_is_refuted_the_given_sets_have_the_theorem(tmp_path):
     asked = plan(certificate(tmp_path, "--left", "1.1", "1.15", "--slopes", "4.3", "6.2"))
     assert all(verdict is Verdict.VERIFIED for verdict in asked.verdicts.values())
     assert asked.headline.slopes == (Fraction("4.3"), Fraction("6.2"))
-    said = statements(case(asked, "x", floats=True))
+    said = statements(case(asked, "x"))
     assert {"horseshoe_theorem", "H2_verified", "H5_verified"} <= set(said)
 
 
@@ -88,7 +88,7 @@ def test_where_nothing_is_refuted_the_given_sets_have_the_theorem(tmp_path):
 def test_slopes_through_phase_0_need_no_lap(tmp_path):
     asked = plan(certificate(tmp_path, *THROUGH_PHASE_0))
     assert asked.headline is None
-    said = statements(case(asked, "x", floats=True))
+    said = statements(case(asked, "x"))
     assert set(said) == {"model", "H1_refuted", "H2_verified", "H3_refuted"} | {
         f"{name}_{verdict.value.lower()}" for name, verdict in asked.verdicts.items()
     }
@@ -96,8 +96,8 @@ def test_slopes_through_phase_0_need_no_lap(tmp_path):
 
 @pytest.mark.slow
 def test_thin_margins_take_more_pieces_not_more_digits_of_the_bound(tmp_path):
-    made = case(plan(certificate(tmp_path, *THIN)), "x", floats=True)
-    thick = case(plan(certificate(tmp_path, *THIN[:3])), "x", floats=True)
+    made = case(plan(certificate(tmp_path, *THIN)), "x")
+    thick = case(plan(certificate(tmp_path, *THIN[:3])), "x")
     count = made.text.count("Lemma piece")
     assert thick.text.count("Lemma piece") < count < 40
     assert rational(Fraction("4.307803")) in statements(made)["H1_verified"]
@@ -105,7 +105,7 @@ def test_thin_margins_take_more_pieces_not_more_digits_of_the_bound(tmp_path):
 
 def test_claims_that_need_no_sets_are_stated_alone():
     path = corpus.path_of("accepted/h11_alone")
-    made = case(plan(path.read_text()), path.name, floats=True)
+    made = case(plan(path.read_text()), path.name)
     assert {theorem.name for theorem in made.theorems} == {
         "model",
         "H11_conditional",
@@ -140,7 +140,7 @@ def near_the_paper(folder, number, seed):
 def test_cuts_are_found_near_the_paper_s_parameters(tmp_path):
     for asked in near_the_paper(tmp_path, 1, seed=5):
         try:
-            made = case(asked, "x", floats=False)
+            made = case(asked, "x")
         except NoHint as failure:
             pytest.fail(f"{asked.of}: {failure}")
         assert made.theorems[1].name in ("corrected_theorem", "horseshoe_theorem")
@@ -153,7 +153,7 @@ def test_coqc_accepts_twenty_of_them_and_refuses_what_is_false(tmp_path, proved)
         true, false = tmp_path / f"true{number}", tmp_path / f"false{number}"
         true.mkdir()
         false.mkdir()
-        made = case(asked, "x", floats=True)
+        made = case(asked, "x")
         accepts(proved, true, made.text)
         most = asked.headline.slopes[1]  # f' rounded up to hundredths: one less is below f'
         edit = rational(most), rational(most - Fraction(1, 100))
@@ -164,7 +164,7 @@ def test_coqc_accepts_twenty_of_them_and_refuses_what_is_false(tmp_path, proved)
 @pytest.mark.long
 @pytest.mark.parametrize("options", [DECREASING, THROUGH_PHASE_0, THIN], ids=str)
 def test_coqc_accepts_what_is_special(tmp_path, proved, options):
-    accepts(proved, tmp_path, case(plan(certificate(tmp_path, *options)), "x", floats=True).text)
+    accepts(proved, tmp_path, case(plan(certificate(tmp_path, *options)), "x").text)
 
 
 @pytest.mark.slow
@@ -172,7 +172,7 @@ def test_a_horseshoe_of_another_claim_is_stated():
     """G5: on [1.31, 1.49]."""
     asked = plan((ROOT / "reports" / "chaos.json").read_text())
     assert not asked.headline.is_corrected and not asked.verdicts
-    said = statements(case(asked, "0", floats=False))
+    said = statements(case(asked, "0"))
     numbers = "(131 / 100) (27 / 20) (29 / 20) (149 / 100) (1) (1) (371 / 100) (291 / 25)"
     assert said["horseshoe_theorem"].endswith(f"horseshoe next {numbers}.")
     theorems = {"model", "horseshoe_theorem", "theorem_3", "theorem_4", "measure_zero"}

@@ -155,6 +155,7 @@ def test_coq_computes_what_is_true_and_nothing_that_is_not(lines, tmp_path, name
 OWN = {
     "henon": None,
     "sine": (["4*sin(x) + y", "-3/10*x"], ("-5", "5"), ("-2", "2")),
+    "duffing": (["y", "-1/5*x + 11/4*y - y**3"], ("-2", "2"), ("-2", "2")),
 }
 
 

@@ -13,6 +13,7 @@ from mpmath import mp, mpf
 from intervals import Interval, Undecided
 from proofs.methods.orbits import corrections, find_points, periodic_points
 from proofs.methods.words import Words
+from tests.proofs.trusted.paper.reference import as_mpf
 
 
 @dataclass
@@ -131,10 +132,6 @@ def logistic_point(word):
             root = mp.sqrt(1 - 4 * x / 5)
             x = (1 + root) / 2 if letter == "1" else (1 - root) / 2
         return x
-
-
-def as_mpf(x):
-    return mpf(x.numerator) / x.denominator
 
 
 @pytest.mark.parametrize("digits", [25, 45])

@@ -18,7 +18,7 @@ SQUARE = {"x": ("-1", "1"), "y": ("-1", "1")}
         (["x"], 1, LINE),
         (["-x"], 2, LINE),
         (["-y", "x"], 4, SQUARE),
-        (["x^2 + 1/4"], 1, LINE),  # a double root at 1/2
+        pytest.param(["x^2 + 1/4"], 1, LINE, marks=pytest.mark.slow),  # a double root at 1/2
     ],
 )
 def test_orbits_that_are_not_isolated(formulas, period, box):

@@ -12,8 +12,7 @@ from proofs.motion.system import System
 from proofs.motion.witness import Flights
 from proofs.plane.steps import impact_times
 from proofs.search.image import Image, image
-from proofs.stress.grazing import graze
-from proofs.stress.truth import BITS
+from proofs.stress.truth import BITS, graze
 from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.enclose import enclosed
@@ -22,6 +21,7 @@ from proofs.trusted.kernel.gaps import first_windows
 from proofs.trusted.numbers import COVER_BITS
 from proofs.trusted.oscillator import PlasticMap
 from tests.proofs.trusted.paper import reference
+from tests.proofs.trusted.paper.reference import as_mpf
 
 PAPER = System(Fraction("0.2121"), Fraction("-0.2"))
 DIGITS = 250
@@ -32,16 +32,12 @@ def fraction(x):
     return Fraction(-int(mantissa) if sign else int(mantissa)) * Fraction(2) ** exponent
 
 
-def number(x):
-    return mpf(x.numerator) / x.denominator
-
-
 def ends(system):
     """(onset, separation): where sticking begins and ends, to 250 digits, in [0, 2 pi)."""
     with mp.workdps(DIGITS):
         leave = mp.findroot(
-            lambda x: reference.launch_acceleration(number(system.eta), number(system.nu), x),
-            reference.separation_phase(number(system.eta), number(system.nu)),
+            lambda x: reference.launch_acceleration(as_mpf(system.eta), as_mpf(system.nu), x),
+            reference.separation_phase(as_mpf(system.eta), as_mpf(system.nu)),
         )
         return fraction((mp.pi - leave) % (2 * mp.pi)), fraction(leave % (2 * mp.pi))
 
@@ -49,17 +45,17 @@ def ends(system):
 def short_flight(system, phase, about):
     """(time, slope) next to the onset of sticking, the root of (10) near 3 `about`."""
     with mp.workdps(DIGITS):
-        eta, nu, phi = number(system.eta), number(system.nu), number(phase)
+        eta, nu, phi = as_mpf(system.eta), as_mpf(system.nu), as_mpf(phase)
 
         def scaled(t, phi=phi):  # the double zero at 0 taken out
             return reference.left_side_10(eta, nu, phi, t) / t**2
 
-        guess = 3 * number(about)
+        guess = 3 * as_mpf(about)
         near = guess * mpf("0.99"), guess
         time = mp.findroot(scaled, near, verify=False)
-        h = number(about) * mpf(10) ** -40
+        h = as_mpf(about) * mpf(10) ** -40
         later = mp.findroot(lambda t: scaled(t, phi + h), near, verify=False)
-        assert abs(scaled(time)) < number(about) * mpf(10) ** -100
+        assert abs(scaled(time)) < as_mpf(about) * mpf(10) ** -100
         return fraction(time), fraction(1 + (later - time) / h)
 
 

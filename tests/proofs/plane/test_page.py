@@ -7,8 +7,8 @@ from fractions import Fraction
 import pytest
 
 from proofs.plane import picture, summary
-from proofs.plane.overlay import Overlay
 from proofs.plane.page import corner, data, page, said, size
+from proofs.plane.picture import Overlay
 from proofs.plane.store import Row, opened, quarters
 from proofs.trusted.atlas import Region
 from proofs.trusted.numbers import show_range

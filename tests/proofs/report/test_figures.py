@@ -1,5 +1,6 @@
 """Figures: what they draw as proved is what the certificates say, and no more."""
 
+import cmath
 import json
 import math
 import random
@@ -13,9 +14,15 @@ import pytest
 from mpmath import mpf
 
 from intervals import Undecided
+from proofs.commands.ledger import CLAIMS
+from proofs.report.dependencies import RESTS, falls_with, rests_on
+from proofs.report.figures import resonance
+from proofs.report.graph import falling, svg
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.staying import StayingSet
+from proofs.trusted.paper import find
 from proofs.trusted.parameters import PAPER
+from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import premises
 from tests.oracles.curves import amplitude, grazing
 from tests.oracles.sources import about_curves
@@ -292,3 +299,68 @@ def test_the_dossier_s_boxes_are_crossed_by_f_from_edge_to_edge(tmp_path):
             for phase in (mpf(float(end)) for end in domain)
         )
         assert ends[0] < target[0] and target[1] < ends[1]
+
+
+# -- figure 10 simulated ---------------------------------------------------------------------------
+
+
+def height_of(samples, cycles):
+    """The height of the oscillation with so many cycles a table period, 64 samples each."""
+    turn = -2j * math.pi * float(cycles) / 64
+    return 2 * abs(sum(x * cmath.exp(turn * k) for k, x in enumerate(samples))) / len(samples)
+
+
+def below(samples):
+    """The largest height at a multiple of an eighth of the table's frequency below it."""
+    return max(height_of(samples, Fraction(j, 8)) for j in range(1, 8))
+
+
+def test_the_steady_motion_has_the_frequency_of_the_table():
+    for nu in (Fraction(-1, 10), Fraction(-2)):
+        samples = resonance.displacement(nu, 432)
+        early, late = samples[: 32 * 64], samples[400 * 64 :]
+        assert below(early) > 0.01 and below(late) < 1e-6 and height_of(late, 1) > 0.5
+
+
+def test_elastic_impacts_may_repeat_after_eight_periods_without_a_line_below_the_drive():
+    nu = -Fraction(math.tan(math.pi / 9))  # nine impacts in eight periods
+    samples = resonance.displacement(nu, 40, epsilon=1.0)
+    period, window = 8 * 64, samples[512:]
+    assert max(abs(a - b) for a, b in zip(window[period:], window, strict=False)) < 1e-6
+    assert max(abs(a - b) for a, b in zip(window[64:], window, strict=False)) > 0.1
+    whole = samples[: 32 * 64]
+    assert below(whole) < 1e-3 and height_of(whole, Fraction(9, 8)) > 0.1
+
+
+# -- what the paper derives from what --------------------------------------------------------------
+
+
+def test_ids_are_claims_of_the_paper_and_no_argument_goes_in_a_circle():
+    for claim, rest in RESTS.items():
+        for each in (claim, *rest.on):
+            assert each in CLAIMS and not find(each).own
+        assert rest.on and len(set(rest.on)) == len(rest.on)
+        assert claim not in rests_on(claim)
+
+
+def test_the_theorem_of_the_paper_falls_with_its_slope_bound():
+    assert {"H7", "H8", "H13", "G5"} <= falls_with("H2")
+    assert "H1" not in falls_with("H2") and rests_on("H8") >= {"H7", "H2", "M6", "M4", "M1"}
+
+
+@pytest.mark.slow
+def test_the_graph_shows_each_claim_once_and_carries_refutations_forward(found):
+    graph = svg(found)
+    refuted = {claim.id for claim in found.claims if claim.verdict is Verdict.REFUTED}
+    boxes = re.findall(r'<a href="#([A-Z]\d+)">(?:(?!</a>).)*</a>', graph)
+    assert sorted(boxes) == sorted(claim.id for claim in found.claims)
+    ringed = set(re.findall(r'<a href="#(\w+)"><title>[^<]*</title><rect class="ring"', graph))
+    assert ringed == {claim.id for claim in found.claims if rests_on(claim.id) & refuted}
+    assert "H8" in ringed and "H1" not in ringed
+    told = {each.claim.id: each for each in falling(found)}
+    assert set(told) == {claim for claim in refuted if falls_with(claim)}
+    for claim, each in told.items():
+        members = [other.id for other in (*each.standing, *each.falling)]
+        assert sorted(members) == sorted(falls_with(claim))
+    corners = re.findall(r'<rect class="[A-Z]+" x="(\d+)" y="(\d+)"', graph)
+    assert len(set(corners)) == len(corners) == len(found.claims)

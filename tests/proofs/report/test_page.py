@@ -11,8 +11,7 @@ import pytest
 from proofs.report import __main__ as command
 from proofs.report import theorem as _page
 from proofs.report.accepted import Accepted
-from proofs.report.differences import facts, marked
-from proofs.report.layout import enclosure, enumerated, percents, sentences
+from proofs.report.layout import enclosure, enumerated, facts, marked, percents, sentences
 from proofs.report.ledger import ledger
 from proofs.report.theorem import sources, template, theorem
 from proofs.report.typeset import html, markdown

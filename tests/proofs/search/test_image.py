@@ -11,16 +11,13 @@ from proofs.motion.system import System
 from proofs.motion.witness import NoImpact
 from proofs.search.image import Image, PossibleImages, image
 from tests.proofs.trusted.paper import reference
+from tests.proofs.trusted.paper.reference import as_mpf
 
 PAPER = System(Fraction("0.2121"), Fraction("-0.2"))
 
 
-def number(value):
-    return mpf(value.numerator) / value.denominator
-
-
 def holds(bounds, value, slack=mpf(0)):
-    return number(bounds[0]) - slack <= value <= number(bounds[1]) + slack
+    return as_mpf(bounds[0]) - slack <= value <= as_mpf(bounds[1]) + slack
 
 
 def point(system, phi, **options):
@@ -59,7 +56,7 @@ CASES = [
 @pytest.mark.parametrize(("eta", "nu", "phi"), CASES)
 def test_a_point_agrees_with_brute_force(eta, nu, phi):
     system = System(Fraction(eta), Fraction(nu))
-    e, n, p = (number(Fraction(x)) for x in (eta, nu, phi))
+    e, n, p = (as_mpf(Fraction(x)) for x in (eta, nu, phi))
     assert reference.launch_acceleration(e, n, p) > 0, "a case that does not stick is wanted"
     expected = reference.first_impact(e, n, p)
     assert expected is not None
@@ -80,7 +77,7 @@ def test_a_point_agrees_with_brute_force(eta, nu, phi):
 )  # fmt: skip
 def test_a_sticking_phase_leaves_at_the_separation_phase(eta, nu, phi):
     system = System(Fraction(eta), Fraction(nu))
-    e, n, p = (number(Fraction(x)) for x in (eta, nu, phi))
+    e, n, p = (as_mpf(Fraction(x)) for x in (eta, nu, phi))
     assert reference.launch_acceleration(e, n, p) < 0
     leave = reference.separation_phase(e, n)
     assert holds(separation_phase(system, 100), leave, mpf(10) ** -45)
@@ -97,7 +94,7 @@ def test_an_interval_contains_the_images_of_its_points():
     found = image(PAPER, (low, high))
     for k in range(6):
         phi = low + (high - low) * k / 5
-        flight, phase = reference.first_impact(mpf("0.2121"), mpf("-0.2"), number(phi))
+        flight, phase = reference.first_impact(mpf("0.2121"), mpf("-0.2"), as_mpf(phi))
         slack = mpf(10) ** -28
         assert holds(found.flight, flight, slack) and holds(found.phase, phase, slack)
     ends = [point(PAPER, x) for x in (low, high)]
@@ -113,7 +110,7 @@ def test_a_grazing_phase_inside_gives_the_set_of_possible_images():
     assert isinstance(found, PossibleImages) and len(found.images) >= 2
     for k in range(31):
         phi = Fraction("1.17") + Fraction(k, 1000)
-        expected = reference.first_impact(mpf("0.2121"), mpf("-0.2"), number(phi))
+        expected = reference.first_impact(mpf("0.2121"), mpf("-0.2"), as_mpf(phi))
         if expected is not None:
             assert any(holds(t, expected[0]) and holds(f, expected[1]) for t, f in found.images)
 

@@ -18,8 +18,7 @@ from proofs.trusted.certificate import Malformed
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.verdicts import Verdict
 from proofs.trusted.verify import Rejected, check, premises
-from tests.oracles.adapter import parameters
-from tests.oracles.judge import oracle
+from tests.oracles.judge import oracle, parameters
 from tests.oracles.plastic import horseshoe_faults
 
 CLAIMS = ("H1", "H2", "H3", "H4", "H5", "H6")

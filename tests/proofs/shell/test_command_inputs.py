@@ -101,36 +101,6 @@ def test_nothing_may_be_missing_or_too_much(command, capsys):
 OPTIONAL = {("orbits", "--eta"), ("orbits", "--nu"), ("single_impact", "--n")}
 
 
-@pytest.mark.parametrize("option", ["--phi", "--gamma"])
-def test_an_interval_in_the_wrong_order_or_of_three_numbers(option, capsys):
-    base = {key: value for key, value in BASES["impact"].items() if key != option}
-    assert "reversed" in refused(capsys, "impact", [*flat(base), option, "1.2", "1.1"])
-    assert "not 3" in refused(capsys, "impact", [*flat(base), option, "1", "1.1", "1.2"])
-
-
-@pytest.mark.parametrize("text", ["0", "-1", "1000001", "1e400", "nan", ""])
-def test_a_horizon_is_positive_and_not_too_far(text, capsys):
-    assert "--horizon" in refused(capsys, "impact", [*POINT, "--horizon", text])
-
-
-@pytest.mark.parametrize(
-    "more",
-    [
-        ["--left", "1.15", "1.1"],
-        ["--right", "1.32", "1.27"],
-        ["--left", "1.27", "1.32", "--right", "1.1", "1.15"],
-        ["--left", "1.1", "1.3"],
-        ["--left", "-1", "1.15"],
-        ["--right", "1.27", "7"],
-        ["--left", "1.1"],
-        ["--period", "3"],
-    ],
-    ids=" ".join,
-)
-def test_sets_that_make_no_horseshoe(more, capsys):
-    refused(capsys, "orbits", ["--word", "01", *more])
-
-
 # -- files -----------------------------------------------------------------------------------------
 
 
@@ -195,6 +165,19 @@ def test_two_outputs_are_two_files(tmp_path, capsys, no_work, monkeypatch):
 SIDES = "--eta 0.2115 0.2127 --nu -0.201 -0.199"
 LOGISTIC = "--map 'r*x*(1 - x)' --set r=3 --box x=0:1"
 CELLS = "--map 'r*x*(1 - x) + c' --box x=0:1 --range r 4.9 5.1"
+NO_SETS = ["--right 1.32 1.27", "--left 1.27 1.32 --right 1.1 1.15", "--left -1 1.15"]
+NO_SETS += ["--right 1.27 7", "--left 1.1", "--period 3"]
+QUESTIONS = {  # of x/2
+    "--ask orbits:0": "'orbits:0' is no question: ask as in orbits:2",
+    "--ask horseshoe:0": "ask as in horseshoe:2",
+    "--ask folds:a=1": "ask as in folds:P=A:B,Q=C:D",
+    "--ask everything": "horseshoe:2, image:X=A,Y=B:C, ",
+    "--ask impact:x=1": "impact is asked of systems, not of maps",
+    "--seconds 0": "some seconds are expected, not 0",
+    "--walls floor": "walls are those of a system",
+    "--set a=2": "the parameter a is in none of the formulas",
+    "--set a=2,b=3": "several are written with spaces between",
+}
 REFUSED = {  # arguments, and what the line says
     "atlas": [
         ("--depth -1", "from 0 to 40"),
@@ -234,6 +217,7 @@ REFUSED = {  # arguments, and what the line says
         ("--word 01 --period 2", "not allowed with"),
         ("--word 01 --left 1.2 1.1", "reversed"),
         ("--word 01 --left 1.1 1.3", "overlap"),
+        *((f"--word 01 {sets}", "") for sets in NO_SETS),
         ("--word 01 --nu 0", "nu must not be 0"),
         ("--word 01 --eta abc", "not a number"),
     ],
@@ -278,6 +262,7 @@ REFUSED = {  # arguments, and what the line says
         (f"{KICK} --epsilon 0.01 --gamma 0 1", "physically impossible"),
         (f"{KICK} --epsilon 0.01 --gamma 0 -1", "reversed"),
         (f"{KICK} --epsilon 0.01 --gamma 0 1 2", "one velocity or two"),
+        *((f"{KICK} --horizon {x}", "--horizon") for x in ("0", "-1", "1000001", "1e400", "nan")),
         ("--phi 1.1 --phi=1.3", "--phi is given 2 times"),
     ],
     "ledger": [("--only H99", "H99"), ("--digits 0", "digits")],
@@ -299,9 +284,9 @@ REFUSED = {  # arguments, and what the line says
             (f"--map x {more}", "")
             for more in ("--effort 0", "--seconds soon", "--set r", "--example wall")
         ),
-        *((f"--map x {more}", "") for more in ("--ask orbits:0", "--box x=1", "--box y=0:1")),
+        *((f"--map x {more}", "") for more in ("--box x=1", "--box y=0:1")),
+        *((f"--map x/2 {more}", why) for more, why in QUESTIONS.items()),
         *((f"{LOGISTIC} --ask {x}", "") for x in ("branches", "branches:r=2", "folds:r=2:4")),
-        ("--map x/2 --ask impact:x=1", "asked of systems"),
         ("--example wall --ask impact:b=1", "a value for each variable"),
         ("--example wall --ask rest:a=1", "no 'rest'"),
         ("--example wall --ask graze:a=1,v=-1", "one variable with a range"),

@@ -6,11 +6,11 @@ import shutil
 
 import pytest
 
+from proofs.commands import ledger as shell
+from proofs.commands.ledger import jobs, main, settle
 from proofs.report import build as report
 from proofs.report import current
 from proofs.shell import files
-from proofs.shell import ledger as shell
-from proofs.shell.ledger import jobs, main, settle
 from proofs.trusted import equations
 from proofs.trusted.verify import Rejected, check
 

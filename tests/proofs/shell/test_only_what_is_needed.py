@@ -30,7 +30,7 @@ from proofs.trusted.verify import check
 from tests.proofs.trusted.corpus import path_of
 
 TIMES = Flights.times
-WATCHED = gap, slope, return_map_derivative, TIMES, cover, simplest, Mesh.leaning, Tape.evaluate
+WATCHED = gap, slope, return_map_derivative, TIMES, cover, simplest, Mesh.grow, Tape.evaluate
 STEPS = rules.find_rule
 FLIGHTS = {gap: 2400, cover: 6, slope: 25}
 SLOPES = {gap: 1200, slope: 40}

@@ -18,6 +18,7 @@ from proofs.methods.words import Words
 from proofs.search import periodic
 from proofs.trusted.parameters import PAPER
 from tests.proofs.trusted.paper import reference
+from tests.proofs.trusted.paper.reference import as_mpf
 
 ETA, NU = mpf("0.2121"), mpf("-0.2")
 EXACT = replace(
@@ -44,10 +45,6 @@ def points(length, digits):
 def answer(capsys, *arguments):
     assert orbits.main([*arguments, "--json", "-"]) == 0
     return json.loads(capsys.readouterr().out)
-
-
-def as_mpf(x):
-    return mpf(x.numerator) / x.denominator
 
 
 def contains(bounds, value, margin=mpf(10) ** -45):

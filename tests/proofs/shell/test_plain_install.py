@@ -11,8 +11,7 @@ from tests.proofs.shell.processes import ROOT
 OPTIONAL = {  # of pyproject.toml
     "report": ("jinja2", "latex2mathml", "markupsafe", "matplotlib"),
     "cluster": ("dask", "distributed"),
-    "benchmark": ("scipy",),
-    "fast": ("flint",),
+    "benchmark": ("flint", "scipy"),
 }
 WITHOUT = """
 import runpy, sys
@@ -29,7 +28,7 @@ COMMANDS = {  # arguments, the status, the extra that a line names
     "dask": (["atlas", *BOX, "--executor", "dask:"], 2, "cluster"),
     "explore": (["explore", "--eta", "0.25", "--nu", "-0.3", "--only", "X1"], 0, None),
     "curves": (["curves", "--epsilon", "0", "--only", "C1"], 0, None),
-    "stress": (["stress", "--cases", "3"], 1, "fast"),
+    "stress": (["stress", "--cases", "3"], 1, "benchmark"),
     "bifurcation": (["bifurcation", "x1 = r*x*(1 - x)"], 0, None),
 }
 

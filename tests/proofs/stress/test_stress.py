@@ -13,15 +13,15 @@ from proofs.motion.witness import NoImpact
 from proofs.shell.backstop import within
 from proofs.stress import __main__ as command
 from proofs.stress import arithmetic as drawn
-from proofs.stress import motions, report
+from proofs.stress import cases
 from proofs.stress.__main__ import main
 from proofs.stress.arithmetic import FunctionCase, OperationCase
+from proofs.stress.cases import ImageCase, ReboundCase
 from proofs.stress.families import FAMILIES
-from proofs.stress.grazing import graze
-from proofs.stress.judge import Outcome, judge
-from proofs.stress.motions import ImageCase, ReboundCase
-from proofs.stress.truth import BITS, Launched, first_impact
+from proofs.stress.judge import Outcome, judge, text
+from proofs.stress.truth import BITS, Launched, first_impact, graze
 from tests.proofs.trusted.paper import reference
+from tests.proofs.trusted.paper.reference import as_mpf
 
 pytest.importorskip("flint")
 KERNEL = arithmetic(FLINT, BITS)
@@ -35,12 +35,8 @@ def by():
     return KERNEL
 
 
-def number(value):
-    return mpf(value.numerator) / value.denominator
-
-
 def close(bounds, value, slack):
-    return number(bounds[0]) - slack <= value <= number(bounds[1]) + slack
+    return as_mpf(bounds[0]) - slack <= value <= as_mpf(bounds[1]) + slack
 
 
 def truths(kernel, function, low, high):
@@ -58,11 +54,11 @@ def point(phi, **options):
     "given", [("0.2121", "-0.2", "1.11"), ("0.2121", "-0.2", "6.2"), ("1.7", "2.5", "4.5")]
 )
 def test_the_truth_agrees_with_a_scan_of_equation_10(by, given):
-    known = [number(Fraction(x)) for x in given]
+    known = [as_mpf(Fraction(x)) for x in given]
     flight, phase = reference.first_impact(*known)
     found = first_impact(by, Launched(*map(Fraction, given)), FAR).known
     assert close(found["flight"], flight, mpf(10) ** -40)
-    assert mp.fabs(mp.sin((number(found["phase"][0]) - phase) / 2)) < mpf(10) ** -40
+    assert mp.fabs(mp.sin((as_mpf(found["phase"][0]) - phase) / 2)) < mpf(10) ** -40
     assert close(found["slope"], reference.slope(*known, flight), mpf(10) ** -15)
     assert all(high - low <= abs(low) / Fraction(10) ** 90 for low, high in found.values())
 
@@ -72,15 +68,15 @@ def test_the_truth_after_sticking(by):
     flight, _ = reference.first_impact(mpf("0.2121"), mpf("-0.2"), leave)
     found = first_impact(by, Launched(ETA, NU, Fraction(5)), FAR).known
     assert close(found["flight"], flight, mpf(10) ** -30)
-    assert mp.fabs(mp.sin((number(found["dwell"][0]) - (leave - 5)) / 2)) < mpf(10) ** -45
+    assert mp.fabs(mp.sin((as_mpf(found["dwell"][0]) - (leave - 5)) / 2)) < mpf(10) ** -45
     assert found["slope"] == (0, 0)
 
 
 def test_the_truth_with_restitution_solves_14_and_15(by):
     of = Launched(ETA, NU, Fraction("1.11"), Fraction("0.1"), Fraction("-0.5"))
     found = first_impact(by, of, FAR).known
-    state = [number(x) for x in (of.eta, of.nu, of.epsilon, of.phi, of.gamma)]
-    flight = number(found["flight"][0])
+    state = [as_mpf(x) for x in (of.eta, of.nu, of.epsilon, of.phi, of.gamma)]
+    flight = as_mpf(found["flight"][0])
     assert mp.fabs(reference.left_side_14(*state, flight)) < mpf(10) ** -45
     assert close(found["velocity"], reference.right_side_15(*state, flight), mpf(10) ** -45)
     step = Fraction(1, 10**12)
@@ -159,12 +155,12 @@ def moved_entry(found, k):
 
 
 DEFECTS = [  # what is broken, how, and a case on which it shows
-    *((motions, "image", lambda x, q=q: replace(x, **{q: up(getattr(x, q))}), point("1.11"))
+    *((cases, "image", lambda x, q=q: replace(x, **{q: up(getattr(x, q))}), point("1.11"))
       for q in ("flight", "phase", "slope")),
-    *((motions, "rebound", lambda x, q=q: replace(x, **{q: up(getattr(x, q))}), REBOUND)
+    *((cases, "rebound", lambda x, q=q: replace(x, **{q: up(getattr(x, q))}), REBOUND)
       for q in ("flight", "phase", "velocity")),
-    *((motions, "rebound", lambda x, k=k: moved_entry(x, k), REBOUND) for k in range(4)),
-    (motions, "image", lambda x: replace(x, images=x.images[:1]), SEVERAL),
+    *((cases, "rebound", lambda x, k=k: moved_entry(x, k), REBOUND) for k in range(4)),
+    (cases, "image", lambda x: replace(x, images=x.images[:1]), SEVERAL),
     (Interval, "sin", lambda x: x * (1 + Fraction(1, 2**48)), SINE),
     (IntervalArray, "exp", lambda x: x * (1 + Fraction(1, 2**48)), EXP),
 ]  # fmt: skip
@@ -202,10 +198,10 @@ def test_an_operation_rounded_inward_excludes_the_truth(monkeypatch, kind, name)
 
 @pytest.mark.parametrize(
     ("case", "holder", "name"),
-    [(TAN, Interval, "tan"), (BY_ZERO, Interval, "__truediv__"), (NEVER, motions, "image")],
+    [(TAN, Interval, "tan"), (BY_ZERO, Interval, "__truediv__"), (NEVER, cases, "image")],
 )
 def test_a_value_where_there_is_none_excludes_the_truth(monkeypatch, case, holder, name):
-    image = motions.image(motions.System(ETA, NU), (Fraction("1.11"),) * 2)
+    image = cases.image(cases.System(ETA, NU), (Fraction("1.11"),) * 2)
     assert judge(case, KERNEL).outcome is Outcome.REFUSED
     monkeypatch.setattr(holder, name, lambda x, *_, **options: image if options else x)
     found = judge(case, KERNEL)
@@ -220,7 +216,7 @@ def raises(error):
 
 
 def test_a_refusal_is_missed_only_where_there_is_an_impact(monkeypatch):
-    monkeypatch.setattr(motions, "image", raises(NoImpact("none")))
+    monkeypatch.setattr(cases, "image", raises(NoImpact("none")))
     assert judge(NEVER, KERNEL).outcome is Outcome.REFUSED
     assert judge(point("1.11"), KERNEL).outcome is Outcome.MISSED
 
@@ -233,7 +229,7 @@ def busy(seconds):
 
 @pytest.mark.slow
 def test_what_takes_too_long_is_stopped_and_the_alarm_is_off(monkeypatch):
-    monkeypatch.setattr(motions, "image", lambda *args, **options: busy(9))
+    monkeypatch.setattr(cases, "image", lambda *args, **options: busy(9))
     assert judge(point("1.11"), KERNEL, 0.05).outcome is Outcome.STOPPED
     with within(0.05, "VIRTUAL"):
         pass
@@ -285,6 +281,6 @@ def test_hard_inputs_stay_without_failure(case):
 def test_no_random_case_excludes_the_truth(exact, count):
     some = [family for family in FAMILIES if (family.name in EXACT) is exact]
     run = command.stress(some, count, 20261121, KERNEL, lambda stage: None)
-    assert not run.failures, report.text(run)
+    assert not run.failures, text(run)
     assert len(run.judgements) >= count - 12
     assert sum(one.outcome is Outcome.ENCLOSED for one in run.judgements) > len(run.judgements) / 3

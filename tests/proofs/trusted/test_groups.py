@@ -10,8 +10,7 @@ from fractions import Fraction
 
 import pytest
 
-from proofs.shell.groups import produce
-from proofs.shell.manifest import NAME
+from proofs.shell.groups import MANIFEST_NAME, produce
 from proofs.trusted import paper as catalogue
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -72,7 +71,7 @@ def test_every_claim_of_a_group_is_in_its_file_and_in_the_manifest(group):
     given = document(group)
     entries = given["claims"]
     assert tuple(entry["id"] for entry in entries)[: len(GROUPS[group])] == GROUPS[group]
-    listed = json.loads((REPORTS / NAME).read_text())["files"][f"{group}.json"]["claims"]
+    listed = json.loads((REPORTS / MANIFEST_NAME).read_text())["files"][f"{group}.json"]["claims"]
     for entry in entries:
         assert listed[entry["id"]]["verdict"] == entry["verdict"]
         assert entry["statement"] and not re.search(r"\{[a-z0-9]+\}", entry["statement"])

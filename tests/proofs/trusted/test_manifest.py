@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 
 from proofs.check import main as check
+from proofs.commands.ledger import CLAIMS
 from proofs.horseshoe import main
-from proofs.shell import manifest
 from proofs.shell.files import writing
-from proofs.shell.ledger import CLAIMS
+from proofs.shell.groups import MANIFEST_NAME, entered
 from proofs.trusted.certificate import MANIFEST, Malformed
 from proofs.trusted.files import digest
 from proofs.trusted.kernel.meter import DEFAULT
@@ -33,15 +33,15 @@ def folder(tmp_path):
 def enter(folder, name, content):
     with writing(folder) as put:
         put(name, content)
-        put(manifest.NAME, manifest.entered(folder, {name: content}))
+        put(MANIFEST_NAME, entered(folder, {name: content}))
 
 
 def files(folder):
-    return json.loads((folder / manifest.NAME).read_text(encoding="utf-8"))["files"]
+    return json.loads((folder / MANIFEST_NAME).read_text(encoding="utf-8"))["files"]
 
 
 def edited(folder, edit):
-    path = folder / manifest.NAME
+    path = folder / MANIFEST_NAME
     document = json.loads(path.read_text(encoding="utf-8"))
     edit(document)
     path.write_text(json.dumps(document), encoding="utf-8")
@@ -50,7 +50,7 @@ def edited(folder, edit):
 
 def test_the_main_job_writes_it_and_the_checker_confirms_it(tmp_path, capsys):
     assert main(["--only", "H1", "H16", "--out", str(tmp_path)]) == 0
-    path = tmp_path / manifest.NAME
+    path = tmp_path / MANIFEST_NAME
     document = json.loads(path.read_text(encoding="utf-8"))
     assert document["schema"] == MANIFEST
     entry = document["files"]["horseshoe.json"]
@@ -68,7 +68,7 @@ def test_the_main_job_writes_it_and_the_checker_confirms_it(tmp_path, capsys):
 def test_the_command_names_the_parameters(tmp_path, capsys):
     words = ["--eta", "0.25", "--nu", "-0.3", *SETS, "--only", "H16", "--out", str(tmp_path)]
     assert main(words) == 0
-    path = tmp_path / manifest.NAME
+    path = tmp_path / MANIFEST_NAME
     made = files(tmp_path)["horseshoe.json"]["made"]
     named = " ".join(SETS)  # without them others would be found
     assert made == f"python -m proofs horseshoe --eta 0.25 --nu -0.3 {named} --only H16"
@@ -83,7 +83,7 @@ def test_what_is_committed_is_about_the_committed_files(name, monkeypatch):
     texts = {(ROOT / "reports" / f"{x}.json").read_text(): x for x in certificates()}
     monkeypatch.setattr("proofs.trusted.manifest.check", lambda text, _: report(texts[text]))
     source = (ROOT / "reports" / name).read_text(encoding="utf-8")
-    examine = check_manifest if name == manifest.NAME else check_ledger
+    examine = check_manifest if name == MANIFEST_NAME else check_ledger
     listed = examine(source, ROOT / "reports", DEFAULT)
     assert {each.id for each in listed} == set(CLAIMS) and all(each.is_paper for each in listed)
 
@@ -122,7 +122,7 @@ def test_a_manifest_is_the_same_bytes_in_whatever_order_and_how_often_files_come
     for folder, order in (("a", named), ("b", named[::-1]), ("c", [*named, *named])):
         for name, content in order:
             enter(tmp_path / folder, name, content)
-        texts.add((tmp_path / folder / manifest.NAME).read_bytes())
+        texts.add((tmp_path / folder / MANIFEST_NAME).read_bytes())
     assert len(texts) == 1
 
 
@@ -131,7 +131,7 @@ def test_a_manifest_is_the_same_bytes_in_whatever_order_and_how_often_files_come
     ["", "[]", "{}", '{"schema": 1, "files": {}}', f'{{"schema": "{MANIFEST}", "files": 1}}'],
 )
 def test_a_manifest_that_cannot_be_read_is_replaced(folder, text):
-    path = folder / manifest.NAME
+    path = folder / MANIFEST_NAME
     path.write_text(text, encoding="utf-8")
     content = (folder / "horseshoe.json").read_text(encoding="utf-8")
     enter(folder, "horseshoe.json", content)
@@ -196,7 +196,7 @@ def test_a_changed_certificate_is_noticed(folder):
     document["claims"] = document["claims"][::-1]
     path.write_text(json.dumps(document), encoding="utf-8")
     with pytest.raises(Rejected, match="proves 'sha256"):
-        check_manifest((folder / manifest.NAME).read_text(encoding="utf-8"), folder, DEFAULT)
+        check_manifest((folder / MANIFEST_NAME).read_text(encoding="utf-8"), folder, DEFAULT)
 
 
 def test_the_digest_is_of_the_canonical_form():

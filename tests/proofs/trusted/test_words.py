@@ -13,9 +13,9 @@ from pathlib import Path
 import pytest
 
 from proofs.check import main
+from proofs.commands.ledger import CLAIMS
 from proofs.report.specification import specification, theorems
 from proofs.shell.groups import row_of
-from proofs.shell.ledger import CLAIMS
 from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.numbers import covered
 from proofs.trusted.parameters import PAPER, Place
@@ -45,7 +45,11 @@ HYPOTHESES = [
     ("G8", "why", "no theorem and no certificate"),
     ("R2", "witness", "a touch without relative velocity"),
     ("R4", "witness", "the orbit is not asymptotically stable"),
-    ("E1", "corrected", "every motion tends to one of a family of motions"),  # R9.1: not to one
+    ("E1", "corrected", "every motion with an impact tends to one of a family"),  # R9.1: not to one
+    ("R4", "corrected", "attracts every motion with an impact"),  # one of (1 + nu)/2 sin t has none
+    ("R8", "witness", "For nu < 0 the states of the first one"),
+    ("R9", "corrected", "For nu < 0 every motion with an impact tends"),
+    ("A1", "witness", "off by more than 3, on the line"),  # 4 pi: less than delta, mod 2 pi
     ("G7", "witness", "none after 6.010073 (an upper bound)"),
     ("G5", "statement", "a periodic orbit is one"),
     ("G18", "corrected", "If a touch without relative velocity counts as an impact, there is one"),
@@ -234,4 +238,6 @@ def test_a_theorem_that_is_named_stands_below_the_rule():
     told = theorems("staying-set")
     assert len(told) == len(set(told)) and told[1].startswith("`staying_set`: Theorem. ")
     bounces = theorems("superstable-motion")  # names a theorem, whose hypotheses name others
-    assert {"`superstable_motion`", "`bounce`", "`settle`"} <= {x.split(":")[0] for x in bounces}
+    assert {"`superstable_motion`", "`bounce`", "`rest_phase`"} <= {
+        x.split(":")[0] for x in bounces
+    }

@@ -12,11 +12,15 @@ from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import About, Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.coverings import EntropyBound
-from proofs.trusted.kernel.loops import StableOrbit
-from proofs.trusted.kernel.staying import StayingSet
+from proofs.trusted.kernel.loops import MOST_CELLS, StableOrbit
+from proofs.trusted.kernel.staying import StayingSet, read_part
 from proofs.trusted.numbers import between
-from proofs.trusted.paper.beyond.returning import StickingMotion, SticksOnce
-from proofs.trusted.paper.s34_circle.landing import Separation
+from proofs.trusted.paper.beyond.returning import (
+    ReturningMotion,
+    StickingMotion,
+    SticksOnce,
+)
+from proofs.trusted.paper.s34_circle.landing import Lands, NeverImpacts, Separation
 from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
@@ -180,25 +184,44 @@ class AllStick(Conclusion):
         )
 
 
-def all_stick(found: Found) -> Callable[[Place], AllStick]:
-    """Return what proves it of an oscillator, from where the mass separates."""
-
-    def proved(at: Place) -> AllStick:
-        arc = found.first(Separation)
-        if arc is None or arc.at != at:
-            raise Unproved("where the mass separates is not proved")
-        return AllStick(arc)
-
-    return proved
+def all_stick(found: Found) -> AllStick | None:
+    """Return it of a claim's oscillator, if where the mass separates proves it."""
+    for arc in found.all(Separation):
+        with suppress(Unproved):
+            return AllStick(arc)
+    return None
 
 
-def prove_settles(context: Context, reader: Reader) -> AtRest | AllStick:
-    """Rule `settles`: {separation: name of a step, or null}.
+def prove_sticking_motion(
+    context: Context, reader: Reader
+) -> AtRest | AllStick | StickingMotion | ReturningMotion | SticksOnce:
+    """Rule `sticking-motion`: {separation, cells: [{slopes, domain}], beyond, landing}.
 
-    Conclusion: `AllStick`; `AtRest` where there is no separation.
+    separation, landing: names of steps, or null; slopes: a step of that rule; domain: two of its
+    points; beyond: null, or as a cell. Conclusion: `AtRest` without all of them; `AllStick` for a
+    separation alone, where that holds; `SticksOnce` where landing is a `stable-orbit` or a
+    `never-impacts` step; `ReturningMotion` where there is a beyond; else `StickingMotion`.
     """
-    (name,) = reader.fields("separation")
-    return AtRest(context.place) if name.is_null() else AllStick(context.step(name, Separation))
+    separation_of, cells_of, beyond_of, landing_of = reader.fields(
+        "separation", "cells", "beyond", "landing"
+    )
+    parts = tuple(read_part(context, cell) for cell in cells_of.items(0, MOST_CELLS))
+    is_plain = not parts and beyond_of.is_null() and landing_of.is_null()
+    if is_plain and separation_of.is_null():
+        return AtRest(context.place)
+    arc = context.step(separation_of, Separation)
+    if is_plain:
+        with suppress(Unproved):
+            return AllStick(arc)
+    beyond = None if beyond_of.is_null() else read_part(context, beyond_of)
+    landing = None if landing_of.is_null() else context.step(landing_of, Conclusion)
+    if isinstance(landing, StableOrbit | NeverImpacts) and beyond is None:
+        return SticksOnce(arc, parts, landing)
+    if not isinstance(landing, Lands | None):
+        raise landing_of.fail("names no step about where the last impact is")
+    if beyond is None:
+        return StickingMotion(arc, parts, landing)
+    return ReturningMotion(arc, parts, beyond, landing)
 
 
 # -- X2: chaos -------------------------------------------------------------------------------------
@@ -212,7 +235,7 @@ def _chaotic(of: Parameters, found: Found) -> Decision:
     for graph in found.all(EntropyBound):
         if graph.growth > 1:
             return decided(Verdict.VERIFIED, graph)
-    none = first_proved(of.place, AtRest, OnlyTouches, all_stick(found))
+    none = first_proved(of.place, AtRest, OnlyTouches) or all_stick(found)
     return undecided("no horseshoe is proved") if none is None else decided(Verdict.REFUTED, none)
 
 
@@ -220,7 +243,7 @@ def _chaotic(of: Parameters, found: Found) -> Decision:
 
 
 def _sticks(of: Parameters, found: Found) -> Decision:
-    motion = found.first(StickingMotion)
+    motion = found.first(StickingMotion) or found.first(AllStick)
     if motion is not None:
         return decided(Verdict.VERIFIED, motion)
     none = first_proved(of.place, AtRest, NeverSticks) or found.first(SticksOnce)
@@ -234,7 +257,7 @@ def _stable(of: Parameters, found: Found) -> Decision:
     orbits = found.all(StableOrbit)
     if orbits:
         return decided(Verdict.VERIFIED, *orbits)
-    none = first_proved(of.place, AtRest, OnlyTouches, all_stick(found))
+    none = first_proved(of.place, AtRest, OnlyTouches) or all_stick(found)
     return undecided("none is proved") if none is None else decided(Verdict.REFUTED, none)
 
 

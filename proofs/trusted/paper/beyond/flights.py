@@ -61,7 +61,7 @@ def _comes(of: Parameters, found: Found) -> Decision:
         none = motion
     if none is not None:
         return decided(Verdict.REFUTED, none)
-    every = first_proved(of.place, all_stick(found))
+    every = all_stick(found)
     if every is not None:
         return decided(Verdict.VERIFIED, every)
     if arc is not None and arc.returns and arc.share > MAJORITY:

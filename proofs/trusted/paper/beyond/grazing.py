@@ -22,6 +22,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
 from proofs.trusted.certificate import Reader
@@ -36,12 +37,12 @@ from proofs.trusted.kernel.formulas import Formulas, read_formulas
 from proofs.trusted.kernel.gaps import Gap, falls, first_windows
 from proofs.trusted.kernel.operations import sqrt
 from proofs.trusted.kernel.zeros import Piece
-from proofs.trusted.numbers import COVER_BITS, Range, ceil_text, show, show_range, within
+from proofs.trusted.numbers import COVER_BITS, Range, ceil_text, floor_text, show, show_range
 
 ETA, P, TIME = range(3)  # the variables of a curve's formulas, in the order of the alphabet
 FOLD, FLIP = "fold", "flip"
 _MOST_PERIODS = 1000
-_POINT_BITS = 128
+_POINT_BITS, _PLACES = 128, 15
 _HALVINGS = 6
 Number = Any
 
@@ -86,22 +87,24 @@ def single_launch(
 class GrazingCurve(Conclusion):
     """A smooth curve (p_G, t_G) over an interval of eta: lemma 2 holds all along it.
 
-    arc: of zeros of `touch`; amplitudes: enclosures of nu at its points.
+    arc: of zeros of `touch`.
     """
 
     n: int
     epsilon: Fraction
     side: int
     arc: Arc
-    amplitudes: tuple[Range, ...]
 
     def __post_init__(self) -> None:
         if self.n < 1 or not 0 <= self.epsilon < 1 or self.side not in (1, -1):
             raise Unproved("n >= 1, 0 <= epsilon < 1 and a sign are required")
         if self.arc.ends[0] <= 0 or any(x.hull(ETA)[P][1] >= 1 for x in self.arc.pieces):
             raise Unproved("eta > 0 and p < 1 are required")
-        if len(self.amplitudes) != len(self.arc.points):
-            raise Unproved("an amplitude for each point is required")
+
+    @cached_property
+    def amplitudes(self) -> list[Range]:
+        """Enclosures of nu at its points."""
+        return [amplitude(self, point) for point in self.arc.points]
 
     @property
     def named(self) -> str:
@@ -150,35 +153,29 @@ class GrazingCurve(Conclusion):
 
 
 def grazing_curve(_: Context, reader: Reader) -> GrazingCurve:
-    """Rule `grazing-curve`: {n, epsilon, pieces, points, times, amplitudes}.
+    """Rule `grazing-curve`: {n, epsilon, pieces, points, times}.
 
     Hypotheses: pieces and points are those of an arc over eta of zeros of `touch`, see `an_arc`,
     p < 1 and 0 < t < T. For each piece, and all (eta, p) in it: gap' > 0 up to the first of its
     times (gap'' > 0 for epsilon = 0), and all pieces between them are closed, as in `separation`,
     but two windows; gap'' > 0 in the first, T is inside the second one, and gap' < 0 there.
-    amplitudes: ranges that contain nu at the points. Conclusion: lemma 2, with relative
-    acceleration > 0 at t_G.
+    Conclusion: lemma 2, with relative acceleration > 0 at t_G.
 
     Proof. gap = gap' = 0 at t_G, in (0, T), so t_G is in no closed piece, nor in the second window:
     it is in the first, and the only zero there. The derivative of F by p and t is regular, so t_G
     is no multiple of 2 pi.
     """
-    n_of, epsilon_of, pieces_of, points_of, times_of, nus_of = reader.fields(
-        "n", "epsilon", "pieces", "points", "times", "amplitudes"
+    n_of, epsilon_of, pieces_of, points_of, times_of = reader.fields(
+        "n", "epsilon", "pieces", "points", "times"
     )
     n, epsilon = integer(n_of, 1, _MOST_PERIODS), epsilon_of.number()
     if not 0 <= epsilon < 1:
         raise epsilon_of.fail("0 <= epsilon < 1 is expected")
     arc = an_arc(touch(n, epsilon), ETA, pieces_of, points_of)
     side = -1 if 2 * n * arc.ends[0] // 1 % 2 else 1
-    count = len(arc.points)
-    nus = tuple(each.range() for each in nus_of.items(count, count))
-    found = GrazingCurve(n, epsilon, side, arc, nus)
+    found = GrazingCurve(n, epsilon, side, arc)
     for piece, each in zip(arc.pieces, times_of.items(*[len(arc.pieces)] * 2), strict=True):
         _touches_once(found, piece, read_times(each))
-    for point, bounds in zip(arc.points, nus, strict=True):
-        if not within(amplitude(found, point), bounds):
-            raise nus_of.fail("bounds that do not contain nu at a point")
     return found
 
 
@@ -227,7 +224,8 @@ def nu_squared(n: int, q: Fraction, place: tuple[Number, Number], pi: Number) ->
 
 
 def amplitude(of: GrazingCurve, box: Box) -> Range:
-    """Enclose nu at all (eta, p) of a box."""
+    """Enclose nu at all (eta, p) of a box, in decimals."""
     place = Enclosure.of(*box[ETA], _POINT_BITS), Enclosure.of(*box[P], _POINT_BITS)
     square: Enclosure = nu_squared(of.n, ratio(of.epsilon), place, pi(_POINT_BITS))
-    return (sqrt(square) * of.side).range
+    low, high = (sqrt(square) * of.side).range
+    return Fraction(floor_text(low, _PLACES)), Fraction(ceil_text(high, _PLACES))

@@ -48,12 +48,16 @@ class Meeting(Conclusion):
     curve: GrazingCurve
     other: str
     box: Box
-    amplitude: Range
     rising: bool
 
     def __post_init__(self) -> None:
         if self.other not in (FOLD, FLIP):
             raise Unproved("a curve of folds or of flips is expected")
+
+    @property
+    def amplitude(self) -> Range:
+        """Enclose nu there."""
+        return amplitude(self.curve, self.box)
 
     @property
     def sentence(self) -> str:
@@ -81,7 +85,7 @@ class Meeting(Conclusion):
 
 
 def meeting(context: Context, reader: Reader) -> Meeting:
-    """Rule `grazing-meets`: {curve, other: fold or flip, around, box: {box, matrix}, amplitude}.
+    """Rule `grazing-meets`: {curve, other: fold or flip, around, box: {box, matrix}}.
 
     With L the formula of p - p_fold (or p_flip) times cos(x)^2, and F = (touch, L). Hypotheses: F
     has exactly one zero in the box `around`, and in `box`, a part of it (Krawczyk, see
@@ -90,9 +94,7 @@ def meeting(context: Context, reader: Reader) -> Meeting:
     it is in `box`, and L changes its sign there. Proof. L changes its sign along the pieces inside
     of `around`, so it has a zero there; that is one of F, and F has one. On the others it has none.
     """
-    curve_of, other_of, around_of, box_of, nu_of = reader.fields(
-        "curve", "other", "around", "box", "amplitude"
-    )
+    curve_of, other_of, around_of, box_of = reader.fields("curve", "other", "around", "box")
     curve, other = context.step(curve_of, GrazingCurve), other_of.string()
     if other not in (FOLD, FLIP):
         raise other_of.fail("fold or flip is expected")
@@ -100,10 +102,7 @@ def meeting(context: Context, reader: Reader) -> Meeting:
     around, box = (_only_zero(function, each) for each in (around_of, box_of))
     if not all(map(within, box, around)):
         raise box_of.fail("a part of the box around is expected")
-    found = Meeting(curve, other, box, nu_of.range(), _rises(curve, other, around))
-    if not within(amplitude(curve, box), found.amplitude):
-        raise nu_of.fail("bounds that do not contain nu")
-    return found
+    return Meeting(curve, other, box, _rises(curve, other, around))
 
 
 def _only_zero(function: Formulas, reader: Reader) -> Box:
@@ -118,7 +117,7 @@ def _only_zero(function: Formulas, reader: Reader) -> Box:
 def _rises(curve: GrazingCurve, other: str, around: Box) -> bool:
     """Whether L goes from < 0 to > 0 along the curve; Unproved unless it is as in `meeting`."""
     signs = [
-        0 if all(map(within, piece.hull(ETA), around)) else _sign(curve, other, piece)
+        0 if all(map(within, piece.hull(ETA), around)) else sign(curve, other, piece)
         for piece in curve.arc.pieces
     ]
     runs = [sign for sign, _ in groupby(signs)]
@@ -127,5 +126,6 @@ def _rises(curve: GrazingCurve, other: str, around: Box) -> bool:
     return runs[0] < 0
 
 
-def _sign(curve: GrazingCurve, other: str, piece: Piece) -> int:
+def sign(curve: GrazingCurve, other: str, piece: Piece) -> int:
+    """Return the sign of L on a piece; Unproved if it has none, or is not seen."""
     return sign_on(level(curve, other, piece), (piece.box[ETA], piece.box[P]))

@@ -7,17 +7,15 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import prod
 
-from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import About, Conclusion
-from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.images import image_range, inside
 from proofs.trusted.kernel.laps import SlopeRange
-from proofs.trusted.kernel.loops import MOST_CELLS, StableOrbit, led
-from proofs.trusted.kernel.staying import read_part
+from proofs.trusted.kernel.loops import StableOrbit, led
 from proofs.trusted.numbers import TURN, Range, between, ceil_text, show, show_range
 from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.paper.s34_circle.landing import Lands, NeverImpacts, Separation
+from proofs.trusted.parameters import Place
 
 _MOST_NAMED = 12  # cells
 
@@ -36,22 +34,54 @@ def _earliest(arc: Separation, landing: Lands | None) -> Fraction:
 
 
 @dataclass(frozen=True)
-class StickingMotion(Conclusion):
-    """After the separation the mass makes an impact in each of the cells and then sticks.
+class _Released(Conclusion):
+    """A mass that sticks leaves at phi_s, and its next impacts are in sets of phases, in turn.
 
-    landing: of launches up to the arc, where the last impact, or the one before, may be.
+    parts: what f, C^1, is on these sets.
     """
 
     arc: Separation
-    cells: tuple[Range, ...]
+    parts: tuple[SlopeRange, ...]
+
+    at = About("arc")
+
+    @property
+    def cells(self) -> tuple[Range, ...]:
+        """The sets."""
+        return tuple(part.ends for part in self.parts)
+
+    @property
+    def quantities(self) -> dict[str, Range]:
+        return {"separation_phase": self.arc.phase}
+
+    def last_impacts(self, *beside: SlopeRange) -> list[Range]:
+        """Return what holds the first impact after all of them, and that of launches beside.
+
+        Unproved unless the first one is inside the first set, f of that inside the next, and so on.
+        """
+        if any(part.at != self.at for part in (*self.parts, *beside)):
+            raise Unproved("the hypotheses are about different oscillators")
+        return led([self.arc.arrival, *map(image_range, beside)], self.parts)
+
+
+@dataclass(frozen=True)
+class StickingMotion(_Released):
+    """Theorem. Let f be C^1 on sets C_1, ..., C_n of phases, the first impact after the separation
+    at phi_s inside C_1, f(C_i) inside C_(i+1), and f(C_n), or for n = 0 the first impact, inside
+    (b, phi_s), where after each launch between b and the arc the first impact is on the arc, by
+    `landing`; without that b is in the arc. Then what the sentence says.
+
+    Proof. The mass leaves the arc at phi_s, whatever the phase at which it came to stick, and what
+    makes an impact in (b, phi_s) comes to stick: so the motion from phi_s repeats. f is continuous
+    on the C_i and the first impact is inside C_1: impacts near those of the motion are followed by
+    impacts near its next ones, the last inside (b, phi_s).
+    """
+
     landing: Lands | None = None
 
     def __post_init__(self) -> None:
         sticking = _earliest(self.arc, self.landing), self.arc.phase[0]
-        if not self.cells and not inside(PlasticMap(self.arc.at), self.arc.arrival, sticking):
-            raise Unproved("the flight after the separation does not end where the mass sticks")
-
-    at = About("arc")
+        _require_inside(self.at, self.last_impacts(), sticking)
 
     @property
     def sentence(self) -> str:
@@ -70,34 +100,39 @@ class StickingMotion(Conclusion):
         each = "1 impact" if most == "1" else f"{most} impacts"
         return f"a periodic motion has {each} and one separation a period"
 
-    @property
-    def quantities(self) -> dict[str, Range]:
-        return {"separation_phase": self.arc.phase}
-
 
 @dataclass(frozen=True)
-class ReturningMotion(Conclusion):
-    """As `StickingMotion`, but the last impact may be after the arc, up to `beyond[1]`, as well.
+class ReturningMotion(_Released):
+    """Theorem. Let the first impacts after launches in (phi_s, u], on which f is C^1, be inside
+    C_1, too, and f(C_n), or for n = 0 the first impacts, inside (b, u), all else being as in
+    `StickingMotion`. Let the product of sup |f'| on (phi_s, u] and on all C_i be below 1. Then what
+    the sentence says.
 
-    contraction: of launches there, until they are there again.
+    beyond: what f is on (phi_s, u].
+
+    Proof. Let R(x) be f^(n+1)(x) where that is after phi_s, else phi_s, for x in [phi_s, u]: the
+    phase of the next launch from there. As max(phi_s, y) does not expand, R contracts [phi_s, u]
+    into itself: all its orbits come to one fixed point, a motion that sticks if that is phi_s, else
+    one of f.
     """
 
-    arc: Separation
-    beyond: Range
-    cells: tuple[Range, ...]
-    contraction: Fraction
+    beyond: SlopeRange
     landing: Lands | None = None
 
     def __post_init__(self) -> None:
-        if not self.beyond[0] <= self.arc.phase[1] <= self.beyond[1]:
+        (first, last), leaves = self.beyond.ends, self.arc.phase[1]
+        if not first <= leaves <= last:
             raise Unproved("the launches after the arc are not known from its end on")
-        back = _earliest(self.arc, self.landing), self.beyond[1]
-        if not self.cells and not inside(PlasticMap(self.arc.at), self.arc.arrival, back):
-            raise Unproved("the flight after the separation does not end there")
-        if back[1] - back[0] >= TURN or not 0 <= self.contraction < 1:
+        back = _earliest(self.arc, self.landing), last
+        if back[1] - back[0] >= TURN or self.contraction >= 1:
             raise Unproved("f is not proved to contract around the loop")
+        _require_inside(self.at, self.last_impacts(self.beyond), back)
 
-    at = About("arc")
+    @property
+    def contraction(self) -> Fraction:
+        """A bound on |R'|."""
+        steepest = max(_steepest(self.arc), self.beyond.steepest)
+        return steepest * prod(part.steepest for part in self.parts)
 
     @property
     def sentence(self) -> str:
@@ -105,7 +140,7 @@ class ReturningMotion(Conclusion):
         sticks = "sticks until phi_s" + (", perhaps after one more impact," if self.landing else "")
         return (
             f"{self.brief}: it has{each} a last one at a phase, mod 2 pi, after "
-            f"{show(_earliest(self.arc, self.landing))} and up to {show(self.beyond[1])}, "
+            f"{show(_earliest(self.arc, self.landing))} and up to {show(self.beyond.ends[1])}, "
             f"where the mass {sticks} if it is before phi_s, in {between(self.arc.phase)}, and "
             "leaves at once if it is after that. It attracts all motions that have an impact "
             "between these two phases."
@@ -116,29 +151,26 @@ class ReturningMotion(Conclusion):
         most = ceil_text(self.contraction)
         return f"a periodic motion is stable, |multiplier| <= {most}, whether it sticks or not"
 
-    @property
-    def quantities(self) -> dict[str, Range]:
-        return {"separation_phase": self.arc.phase}
-
 
 @dataclass(frozen=True)
-class SticksOnce(Conclusion):
-    """After the separation the mass makes an impact in each of the cells, and then comes to `end`.
+class SticksOnce(_Released):
+    """Theorem. Let f be C^1 on sets C_1, ..., C_n of phases, the first impact after the separation
+    inside C_1, f(C_i) inside C_(i+1), and f(C_n), or for n = 0 the first impact, inside a set of a
+    stable orbit, or inside phases after which there is no impact. Then what the sentence says.
 
-    end: motions that never stick: around a stable orbit, or without another impact.
+    Proof. What sticks leaves at phi_s. Its impacts are in the C_i in turn, where it leaves at once,
+    as f is C^1 there; then in the sets of the orbit, which f maps into each other; or there is
+    none, and no touch, which comes at the phase of the launch with the gap > 0 before it, is where
+    the mass sticks. So from the separation on it never sticks, and no such motion repeats.
     """
 
-    arc: Separation
-    cells: tuple[Range, ...]
     end: StableOrbit | NeverImpacts
 
     def __post_init__(self) -> None:
-        if self.end.at != self.arc.at:
+        if self.end.at != self.at:
             raise Unproved("the hypotheses are about different oscillators")
-        if not self.cells and not _ends([self.arc.arrival], self.end):
-            raise Unproved("the flight after the separation does not come to what never sticks")
-
-    at = About("arc")
+        sets = self.end.cells if isinstance(self.end, StableOrbit) else (self.end.phases,)
+        _require_inside(self.at, self.last_impacts(), *sets)
 
     @property
     def sentence(self) -> str:
@@ -170,71 +202,12 @@ class SticksOnce(Conclusion):
         end = f"a stable orbit of period {period}" if period else "motions without an impact"
         return f"a mass that sticks comes to {end}, and never sticks again"
 
-    @property
-    def quantities(self) -> dict[str, Range]:
-        return {"separation_phase": self.arc.phase}
 
-
-def sticks_once(
-    arc: Separation, parts: Sequence[SlopeRange], end: StableOrbit | NeverImpacts
-) -> SticksOnce:
-    """Theorem. Let f be C^1 on sets C_1, ..., C_n of phases, the first impact after the separation
-    inside C_1, f(C_i) inside C_(i+1), and f(C_n), or for n = 0 the first impact, inside a set of a
-    stable orbit, or inside phases after which there is no impact. Then what the conclusion's
-    sentence says.
-
-    Proof. What sticks leaves at phi_s. Its impacts are in the C_i in turn, where it leaves at once,
-    as f is C^1 there; then in the sets of the orbit, which f maps into each other; or there is
-    none, and no touch, which comes at the phase of the launch with the gap > 0 before it, is where
-    the mass sticks. So from the separation on it never sticks, and no such motion repeats.
-    """
-    if any(part.at != arc.at for part in parts):
-        raise Unproved("the hypotheses are about different oscillators")
-    if not _ends(led([arc.arrival], parts), end):
-        raise Unproved("the last impact is not proved to come to what never sticks")
-    return SticksOnce(arc, tuple(part.ends for part in parts), end)
-
-
-def _ends(images: Sequence[Range], end: StableOrbit | NeverImpacts) -> bool:
-    """Whether impacts are where, from then on, the mass never sticks."""
-    sets = end.cells if isinstance(end, StableOrbit) else [end.phases]
-    f = PlasticMap(end.at)
-    return all(any(inside(f, image, each) for each in sets) for image in images)
-
-
-def sticking_motion(
-    arc: Separation,
-    parts: Sequence[SlopeRange],
-    beyond: SlopeRange | None = None,
-    landing: Lands | None = None,
-) -> StickingMotion | ReturningMotion:
-    """Theorem. Let f be C^1 on sets C_1, ..., C_n of phases. Let the first impact after the
-    separation at phi_s, and those after the launches beyond it, in (phi_s, u], be in C_1,
-    f(C_i) inside C_(i+1), and f(C_n), or for n = 0 the first impacts, inside (b, u), where after
-    each launch between b and the arc the first impact is on the arc; without `landing`, b is in the
-    arc, without `beyond`, u is phi_s. If there is a `beyond`, let the product of
-    sup |f'| on (phi_s, u] and on all C_i be below 1. Then what the conclusion's sentence says.
-
-    Proof. The mass leaves the arc at phi_s, whatever the phase at which it came to stick, and what
-    makes an impact in (b, phi_s) comes to stick. So without `beyond` the motion from phi_s repeats;
-    f is continuous on the C_i and phi_1 is inside C_1: impacts near those of the motion are
-    followed by impacts near its next ones, the last inside (b, phi_s). With `beyond`, let R(x) be
-    f^(n+1)(x) where that is after phi_s, else phi_s, for x in [phi_s, u]: the phase of the next
-    launch from there. As max(phi_s, y) does not expand, R contracts [phi_s, u] into itself: all
-    its orbits come to one fixed point, a motion that sticks if that is phi_s, else one of f.
-    """
-    if any(each.at != arc.at for each in (*parts, beyond, landing) if each is not None):
-        raise Unproved("the hypotheses are about different oscillators")
-    first = [arc.arrival, *(image_range(each) for each in (beyond,) if each is not None)]
-    images = led(first, parts)
-    back = _earliest(arc, landing), arc.phase[0] if beyond is None else beyond.ends[1]
-    if not all(inside(PlasticMap(arc.at), image, back) for image in images):
-        raise Unproved("the last impact is not proved to be where the mass sticks")
-    cells = tuple(part.ends for part in parts)
-    if beyond is None:
-        return StickingMotion(arc, cells, landing)
-    steepest = max(_steepest(arc), beyond.steepest) * prod(part.steepest for part in parts)
-    return ReturningMotion(arc, beyond.ends, cells, steepest, landing)
+def _require_inside(at: Place, impacts: Sequence[Range], *targets: Range) -> None:
+    """Require that each impact is inside one of these sets."""
+    f = PlasticMap(at)
+    if not all(any(inside(f, impact, each) for each in targets) for impact in impacts):
+        raise Unproved("the last impact is not proved to be where the motion goes on from")
 
 
 def _steepest(arc: Separation) -> Fraction:
@@ -247,26 +220,3 @@ def _steepest(arc: Separation) -> Fraction:
         raise Unproved("the first impact is not proved to be transversal")
     rise = max(map(abs, arc.at.nu)) * max(abs(1 - low**2), abs(1 - high**2))
     return rise * width / (low * arc.speed[0])
-
-
-def prove_sticking_motion(
-    context: Context, reader: Reader
-) -> StickingMotion | ReturningMotion | SticksOnce:
-    """Rule `sticking-motion`: {separation, cells: [{slopes, domain}], beyond, landing}.
-
-    separation, landing: names of steps; slopes: a step of that rule; domain: two of its points;
-    beyond: null, or as a cell; landing: or null. Conclusion: `sticking_motion`; `sticks_once` where
-    landing is a `stable-orbit` or a `never-impacts` step.
-    """
-    separation_of, cells_of, beyond_of, landing_of = reader.fields(
-        "separation", "cells", "beyond", "landing"
-    )
-    parts = [read_part(context, cell) for cell in cells_of.items(0, MOST_CELLS)]
-    beyond = None if beyond_of.is_null() else read_part(context, beyond_of)
-    arc = context.step(separation_of, Separation)
-    landing = None if landing_of.is_null() else context.step(landing_of, Conclusion)
-    if isinstance(landing, StableOrbit | NeverImpacts) and beyond is None:
-        return sticks_once(arc, parts, landing)
-    if not isinstance(landing, Lands | None):
-        raise landing_of.fail("names no step about where the last impact is")
-    return sticking_motion(arc, parts, beyond, landing)

@@ -17,7 +17,6 @@ from proofs.trusted.numbers import Phases, Range, hull, within
 from proofs.trusted.paper.branches import Branch
 
 _ZERO, _ONE = Fraction(0), Fraction(1)
-_MOST_CUTS = 50
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from fractions import Fraction
 from functools import partial
+from math import isqrt
 
 from proofs.trusted.equations import closing, launch_acceleration
 from proofs.trusted.flights import Motion, lifted
@@ -20,6 +21,7 @@ from proofs.trusted.numbers import COVER_BITS, Range
 from proofs.trusted.paper.s34_circle.landing import Separation
 from proofs.trusted.parameters import Place
 
+_WIDENINGS, _RATIO_UNITS, _PHASE_UNITS = 7, 2**10, 2**128
 State = tuple[Range, Range]  # phases and relative speeds of impacts
 Box = tuple[Range, Range]  # phases x velocities
 
@@ -74,7 +76,9 @@ def bounced(at: Place, state: State, epsilons: Range, times: Iterable[Range], bi
     return state
 
 
-def settle(at: Place, phases: Range, rest: Fraction, kick: Fraction, shrinking: Range) -> None:
+def rest_phase(
+    at: Place, phases: Range, kick: Fraction, epsilon: Fraction, last: Fraction
+) -> Fraction | None:
     """Lemma 2 (chatter). Let -A <= a <= -b < 0 on [phi, T], 0 <= epsilon, r >= epsilon sqrt(A / b),
     r < 1 and phi + 2 w / (b (1 - r)) <= T. Then all further impacts come at phases up to T; there
     are none if w = 0 (the mass sticks), infinitely many if w > 0 and epsilon > 0.
@@ -86,17 +90,24 @@ def settle(at: Place, phases: Range, rest: Fraction, kick: Fraction, shrinking: 
     At the limit of the impacts the mass is at rest on the table, where a < 0: it sticks there, as
     long as a < 0.
 
-    Prove its hypotheses for phi in `phases`, T = rest, w at most `kick`, all coefficients up to the
-    first number of `shrinking`, r the second.
+    Return such a T below `last`, for phi in `phases`, w at most `kick` and all coefficients up to
+    epsilon, None if none is found: from below, since the longer the arc, the weaker its push.
     """
-    (first, last), (epsilon, ratio) = phases, shrinking
-    if rest <= last or not 0 < ratio < 1:
-        raise Unproved("no phase of rest, or no ratio, for the chatter lemma")
-    strong, weak = push(at, (first, rest))
-    if weak >= 0 or ratio**2 * -weak < epsilon**2 * -strong:
-        raise Unproved("the speeds of the bounces are not proved to shrink by the ratio")
-    if last + 2 * kick / (-weak * (1 - ratio)) > rest:
-        raise Unproved("the bounces are not proved to end by the phase of rest")
+    rest = phases[1]
+    for _ in range(_WIDENINGS):
+        strong, weak = push(at, (phases[0], rest))
+        if weak >= 0:
+            return None
+        square = (epsilon**2 * strong / weak * _RATIO_UNITS**2).__ceil__()
+        ratio = Fraction(isqrt(max(square - 1, 0)) + 1, _RATIO_UNITS)
+        if ratio >= 1:
+            return None
+        length = 2 * kick / (-weak * (1 - ratio))
+        if phases[1] + length <= rest < last:
+            return rest
+        rest = phases[1] + length * Fraction(17, 16)
+        rest = Fraction((rest * _PHASE_UNITS).__ceil__(), _PHASE_UNITS)
+    return None
 
 
 # -- on the arc where the mass sticks --------------------------------------------------------------

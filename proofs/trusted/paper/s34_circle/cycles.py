@@ -15,12 +15,12 @@ from proofs.trusted.kernel.coverings import read_image, read_images
 from proofs.trusted.kernel.enclose import integer
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range, show, within
-from proofs.trusted.paper.s34_circle.expansion import Expansion
+from proofs.trusted.paper.s34_circle.expansion import Expansion, read_expansion
 from proofs.trusted.paper.s34_circle.grazing import Grazing
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts
 from proofs.trusted.paper.s34_circle.laps import EntropyRange
-from proofs.trusted.paper.s34_circle.pieces import Known
-from proofs.trusted.parameters import Parameters
+from proofs.trusted.paper.s34_circle.pieces import Known, Pieces
+from proofs.trusted.parameters import Parameters, Place
 from proofs.trusted.verdicts import Decision, Found, Row, Verdict, decided, undecided
 
 _LONGEST = 6  # period
@@ -43,7 +43,10 @@ class Cycles(Conclusion):
     longest: int
     touching: Word | None = None
 
-    at = About("expansion")
+    @property
+    def at(self) -> Place:
+        """The oscillator."""
+        return self.expansion.at
 
     @property
     def counts(self) -> list[tuple[int, int]]:
@@ -239,16 +242,18 @@ class Outer:
         return False
 
 
-def prove_cycles(context: Context, reader: Reader) -> Cycles:
-    """Rule `cycles`: {expansion, orbits: [[{phase, time}]], radius, longest, images}.
+def prove_expansion(context: Context, reader: Reader) -> Cycles:
+    """Rule `expansion`: {pieces, cells: [{cuts, times}] for each piece, scales, rate, orbits:
+    [[{phase, time}]], radius, longest, images}.
 
     images: [{phase, time}]; time brackets the first impact after a phase on a branch, as in
-    `Branch.image`. Conclusion: `cycles`, the ends of images being rounded outward to 8 decimals.
+    `Branch.image`. Conclusion: `expansion`, by `read_expansion`, and `cycles`, the ends of images
+    being rounded outward to 8 decimals.
     """
-    expansion_of, orbits_of, radius, longest, images = reader.fields(
-        "expansion", "orbits", "radius", "longest", "images"
+    pieces_of, cells_of, scales, rate, orbits_of, radius, longest, images = reader.fields(
+        "pieces", "cells", "scales", "rate", "orbits", "radius", "longest", "images"
     )
-    expansion = context.step(expansion_of, Expansion)
+    expansion = read_expansion(context.step(pieces_of, Pieces), cells_of, scales, rate)
     branches = [piece.branch for piece in expansion.pieces.monotone]
     orbits = [
         [read_image(branches, entry) for entry in orbit.items(1, _LONGEST)]
@@ -282,7 +287,7 @@ class Coding(Conclusion):
         if self.expansion.pieces != self.entropy.pieces:
             raise Unproved("expansion and entropy are about different pieces")
 
-    at = About("expansion")
+    at = About("entropy")
 
     @property
     def sentence(self) -> str:
@@ -301,14 +306,13 @@ class Coding(Conclusion):
 
 
 def _tame(of: Parameters, found: Found) -> Decision:
-    """G18: by an expansion and an entropy range about the same pieces, and periodic orbits."""
+    """G18: by an expansion with its periodic orbits, and an entropy range about the same pieces."""
     del of
-    expansions, ranges = found.all(Expansion), found.all(EntropyRange)
-    if not (expansions and ranges):
+    orbits, entropy = found.first(Cycles), found.first(EntropyRange)
+    if orbits is None or entropy is None:
         return undecided("no expansion, or no graph of what follows what, is proved")
-    coding = Coding(expansions[0], ranges[0])
-    orbits = [each for each in found.all(Cycles) if each.expansion == coding.expansion]
-    return decided(Verdict.VERIFIED, coding, *orbits, corrected=[coding, *orbits])
+    both = Coding(orbits.expansion, entropy), orbits
+    return decided(Verdict.VERIFIED, *both, corrected=both)
 
 
 ROWS = (

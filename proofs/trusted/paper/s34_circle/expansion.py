@@ -11,13 +11,12 @@ from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import inverse_slope
 from proofs.trusted.flights import Motion, lifted
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.conclusion import About, Conclusion
-from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.meter import METER
 from proofs.trusted.numbers import Range, hull, increasing, show
 from proofs.trusted.paper.branches import Branch
 from proofs.trusted.paper.s34_circle.grazing import Grazing
 from proofs.trusted.paper.s34_circle.pieces import Piece, Pieces
+from proofs.trusted.parameters import Place
 from proofs.trusted.windows import BITS
 
 BRACKET = Fraction(1, 2**26)  # the width of the time brackets in the rule `expansion`
@@ -25,7 +24,7 @@ Part = tuple[Fraction, Range]  # a bound of 1/|f'| on a part of a piece, and wha
 
 
 @dataclass(frozen=True)
-class Expansion(Conclusion):
+class Expansion:
     """Lengths, times scales[i] in piece i, grow by `rate` > 1 or more from piece to piece."""
 
     pieces: Pieces
@@ -38,7 +37,10 @@ class Expansion(Conclusion):
         if self.rate <= 1:
             raise Unproved("f does not expand")
 
-    at = About("pieces")
+    @property
+    def at(self) -> Place:
+        """The oscillator."""
+        return self.pieces.at
 
     @property
     def least(self) -> Fraction:
@@ -47,6 +49,7 @@ class Expansion(Conclusion):
 
     @property
     def sentence(self) -> str:
+        """Return it in words."""
         return (
             f"{self.pieces.sentence} |(f^n)'| >= {self._growth} wherever phi, f(phi), ..., "
             "f^n(phi) lie in these intervals and none before the last is grazing. So two phases "
@@ -58,6 +61,7 @@ class Expansion(Conclusion):
 
     @property
     def brief(self) -> str:
+        """Return it in a line."""
         return (
             f"|(f^n)'| >= {self._growth} on all orbits that do not "
             "come to stick, nor to a phase without any impact"
@@ -95,15 +99,15 @@ def expansion(
     return found
 
 
-def prove_expansion(context: Context, reader: Reader) -> Expansion:
-    """Rule `expansion`: {pieces, cells: [{cuts, times}], scales, rate}, a cell list for each piece.
+def read_expansion(
+    pieces: Pieces, cells_of: Reader, scales_of: Reader, rate_of: Reader
+) -> Expansion:
+    """Prove what `expansion` concludes.
 
-    The cuts lead from one end of the branch of the piece to the other; at each the gap is > 0 at
-    the time given, < 0 by 2^-26 later. Parts are the phases between cuts, mapped between the images
-    of these, and those beside grazes, near the limits there. Conclusion: `expansion`.
+    The cuts of cells lead from one end of the branch of a piece to the other; at each the gap is
+    > 0 at the time given, < 0 by 2^-26 later. Parts are the phases between cuts, mapped between the
+    images of these, and those beside grazes, near the limits there.
     """
-    pieces_of, cells_of, scales_of, rate_of = reader.fields("pieces", "cells", "scales", "rate")
-    pieces = context.step(pieces_of, Pieces)
     count = len(pieces.monotone)
     pairs = zip(pieces.monotone, cells_of.items(count, count), strict=True)
     parts = [[*_between(piece, entry), *beside(piece)] for piece, entry in pairs]

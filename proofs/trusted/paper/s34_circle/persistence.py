@@ -24,7 +24,7 @@ from proofs.trusted.paper.s34_circle.bounces import (
     bounced,
     kicked,
     landed,
-    settle,
+    rest_phase,
     starts,
 )
 from proofs.trusted.paper.s34_circle.landing import Separation
@@ -146,14 +146,10 @@ class Passes(Conclusion):
 
 
 class Cell(NamedTuple):
-    """How bounces end for all epsilon of a range: the first in brackets, the others by Lemma 2.
-
-    ending: ratio and phase of rest of that lemma; None: after the first ones the mass passes phi_s.
-    """
+    """Brackets of the first bounces for all epsilon of a range."""
 
     epsilons: Range
     bounces: Sequence[Range]
-    ending: tuple[Fraction, Fraction] | None
 
 
 def superstable_motion(
@@ -165,8 +161,9 @@ def superstable_motion(
     on states that contain the box, on some that contain its image, and so on. Let the last image,
     or the box if there are none, have phases inside the arc and speeds > 0; from there, for each
     cell, bounce after bounce have its impact in the bracket given, by `bounce`, and the one after
-    the last bracket satisfy the hypotheses of `settle`, with r = ratio and T = rest, below phi_s.
-    Then what `SuperstableMotion.sentence` says; `passes` is about a cell without such numbers.
+    the last bracket satisfy the hypotheses of Lemma 2 (`rest_phase`), with a T below phi_s. Then
+    what `SuperstableMotion.sentence` says; if no T is found after the bounces of one cell, without
+    `impacts`, see `passes`.
 
     Proof. With relative velocity 0 the flight from phi_s does not depend on epsilon. What has an
     impact in the box has the next ones in its images, then on the arc, where a < 0, as the lemmas
@@ -192,13 +189,12 @@ def superstable_motion(
     rests = []
     for cell in cells:
         last, speeds = bounced(arc.at, state, cell.epsilons, cell.bounces, bits)
-        if cell.ending is None:
-            if impacts or len(cells) > 1:
-                raise Unproved("a mass that passes phi_s does so at one epsilon, after bounces")
-            return passes(arc, (last, speeds), cell, bits)
-        ratio, rest = cell.ending
         greatest = cell.epsilons[1]
-        settle(arc.at, last, rest, greatest * speeds[1], (greatest, ratio))
+        rest = rest_phase(arc.at, last, greatest * speeds[1], greatest, arc.phase[0])
+        if rest is None:
+            if impacts or cell.epsilons[0] < greatest or len(cells) > 1:
+                raise Unproved("the bounces are not proved to end before phi_s")
+            return passes(arc, (last, speeds), cell, bits)
         rests.append(rest)
     return SuperstableMotion(arc, epsilons, tuple(boxes), max(rests))
 
@@ -208,9 +204,7 @@ def passes(arc: Separation, state: State, cell: Cell, bits: int) -> Passes:
     flights after it have gap > 0 at phi_s. Then what `Passes.sentence` says. Proof. a < 0 from the
     last impact to phi_s, so by Lemma 1 (`bounce`) gap has no zero before a time at which it is > 0.
     """
-    (epsilon, largest), (phases, (slow, fast)) = cell.epsilons, state
-    if epsilon != largest:
-        raise Unproved("one epsilon is expected")
+    (epsilon, _), (phases, (slow, fast)) = cell.epsilons, state
     time = arc.phase[0] - phases[1], arc.phase[1] - phases[0]
     if time[0] <= 0 or arc.at.eta[1] * time[1] > 3:
         raise Unproved("the last flight begins after phi_s, or is longer than its lemma allows")
@@ -221,20 +215,18 @@ def passes(arc: Separation, state: State, cell: Cell, bits: int) -> Passes:
 
 def prove_superstable_motion(context: Context, reader: Reader) -> SuperstableMotion | Passes:
     """Rule `superstable-motion`: {separation, box: [phases, velocities], impacts: names of
-    differential steps, cells: [{epsilon: [e, e'], bounces: [[t, t'], ...], ratio, rest}]}.
+    differential steps, cells: [{epsilon: [e, e'], bounces: [[t, t'], ...]}]}.
 
-    Conclusion: `superstable_motion`; ratio and rest may be null, both, for `passes`.
+    Conclusion: `superstable_motion`, or that of `passes`.
     """
     arc_of, box_of, impacts_of, cells_of = reader.fields("separation", "box", "impacts", "cells")
     phases, velocities = (side.range() for side in box_of.items(2, 2))
     impacts = [context.step(name, Differential) for name in impacts_of.items(most=_MOST_IMPACTS)]
     cells = []
     for cell in cells_of.items(least=1):
-        epsilons, bounces, ratio, rest = cell.fields("epsilon", "bounces", "ratio", "rest")
+        epsilons, bounces = cell.fields("epsilon", "bounces")
         times = [time.range() for time in bounces.items(most=_MOST_BOUNCES)]
-        in_flight = ratio.is_null() and rest.is_null()
-        ending = None if in_flight else (ratio.number(), rest.number())
-        cells.append(Cell(epsilons.range(), times, ending))
+        cells.append(Cell(epsilons.range(), times))
     arc = context.step(arc_of, Separation)
     return superstable_motion(arc, (phases, velocities), impacts, cells)
 

@@ -40,8 +40,8 @@ iterates = corollary(
     "At eta = 1, for 0 <= epsilon < 1 and c = gamma + nu cos(phi), c_n = epsilon^n c_0, and the "
     "phases converge: phi_n = phi_0 + 2 arctan(epsilon c_0) + ... + 2 arctan(epsilon^n c_0) mod 2 "
     "pi, |phi_n - phi_limit| <= 2 epsilon^(n+1) |c_0|/(1 - epsilon) on the line. For nu < 0 every "
-    "motion tends to a grazing orbit gamma = -nu cos(phi); for nu > 0 every motion comes to rest "
-    "in finite time, after infinitely many impacts if epsilon c_0 is not 0.",
+    "motion with an impact tends to a grazing orbit gamma = -nu cos(phi); for nu > 0 every motion "
+    "comes to rest in finite time, after infinitely many impacts if epsilon c_0 is not 0.",
     closed_form,
 )
 
@@ -66,8 +66,8 @@ stability = corollary(
     "At eta = 1, for nu < 0 and 0 <= epsilon < 1, the grazing orbit gamma = -nu cos(phi_o) of each "
     "phase phi_o is stable, none asymptotically. With c = gamma + nu cos(phi), phi_n stays within "
     "|phi_0 - phi_o| + 2 epsilon |c_0|/(1 - epsilon), |c_n| <= |c_0|; all phases next to it have "
-    "such orbits, and their family attracts every motion, with the factor epsilon from impact to "
-    "impact.",
+    "such orbits, and their family attracts every motion with an impact, with the factor epsilon "
+    "from impact to impact.",
     iterates,
 )
 no_double = corollary(
@@ -94,15 +94,15 @@ rebound = corollary(
 )
 no_subharmonic = corollary(
     "At eta = 1, for 0 <= epsilon < 1, the model has no steady subharmonic, at any amplitude nu: "
-    "for nu < 0 every motion tends to one of a family of motions, one for each phase phi_o of its "
-    "touches, which are sines of the frequency of the table, (1 + nu sin phi_o) cos t + nu cos "
-    "phi_o sin t at the time t after a touch, in units of -p; for nu > 0 every motion comes to "
-    "rest on the table. For epsilon = 1 all flights of a motion with c = gamma + nu cos(phi) not "
-    "0, which is constant, last T = 2 pi - 2 arctan|c| for nu < 0, T = 2 arctan|c| for nu > 0, so "
-    "the displacement, table plus gap, has only the frequency of the table and multiples of 2 pi/T "
-    "times it, larger ones. It repeats after n impacts in n - j periods of the table if nu < 0 and "
-    "|c| = tan(pi j/n), j and n coprime, 1 <= j < n/2 (nine in eight for tan(pi/9)); such motions "
-    "attract nothing.",
+    "for nu < 0 every motion with an impact tends to one of a family of motions, one for each "
+    "phase phi_o of its touches, which are sines of the frequency of the table, (1 + nu sin phi_o) "
+    "cos t + nu cos phi_o sin t at the time t after a touch, in units of -p, and one without is a "
+    "sine of this frequency, too; for nu > 0 every motion comes to rest on the table. For epsilon "
+    "= 1 all flights of a motion with c = gamma + nu cos(phi) not 0, which is constant, last T = 2 "
+    "pi - 2 arctan|c| for nu < 0, T = 2 arctan|c| for nu > 0, so the displacement, table plus gap, "
+    "has only the frequency of the table and multiples of 2 pi/T times it, larger ones. It repeats "
+    "after n impacts in n - j periods of the table if nu < 0 and |c| = tan(pi j/n), j and n "
+    "coprime, 1 <= j < n/2 (nine in eight for tan(pi/9)); such motions attract nothing.",
     iterates,
 )
 
@@ -235,8 +235,9 @@ ROWS = (
         corollary(
             "At eta = 1, |nu| > 1 (say sin(phi_o) = 3/5, nu = -5/3), 0 <= epsilon < 1, they solve "
             "the displayed linear equations, but alpha_o sin(theta_o + Delta), which must be "
-            "alpha_1 sin(theta_1) = 0, is s_1 gamma_1 sin(2 phi_o), not 0. The states of the first "
-            "one are two different orbits of period one.",
+            "alpha_1 sin(theta_1) = 0, is s_1 gamma_1 sin(2 phi_o), not 0. For nu < 0 the "
+            "states of the first one are two different orbits of period one, for nu > 0 the mass "
+            "rests on the table.",
             closed_form,
             *eq.SOLUTIONS,
         ),

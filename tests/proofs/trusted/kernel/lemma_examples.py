@@ -107,11 +107,11 @@ def second_iterate():
 
 
 def cubic():
-    """x^3 - 3 x + 1: three roots, each in an interval where the cubic is monotone; bounds."""
+    """x^3 - 3 x + 1: where it is monotone, bounds."""
     file = Lemmas()
     for side, sign in ((("-2", "-11/10"), 1), (("-9/10", "9/10"), -1), (("11/10", "2"), 1)):
-        file.root(CUBIC, sign, x=side)
-    file.zero(CUBIC, file.value(CUBIC, ("-2", "4"), x=("-2", "2")), ("-2", "2"))
+        file.sign(f"D({CUBIC}, x)", sign, x=side)
+    file.value(CUBIC, ("-2", "4"), x=("-2", "2"))
     file.sign(CUBIC, 1, x=("8/5", "3"))
     file.value(f"D({CUBIC}, x)", ("-4", "10"), x=("-1", "2"))
     return file
@@ -234,8 +234,10 @@ def rectangles():
     file.add("barred-word", {"rectangles": [beyond], "word": ["1", "1"], "from": "below"})
     box = [["3/5", "4/5"], ["-1/4", "1/4"]]
     file.add("differential", {"function": "F", "box": box, "bits": "64"})
-    box = [["41/50", "83/100"], ["0", "1/50"]]
-    file.add("stable-cycle", {"function": "G", "box": box, "period": "2", "rounds": "2"})
+    box = [["8237/10000", "4119/5000"], ["19/2000", "97/10000"]]
+    matrix = [["-1", "0"], ["0", "-1"]]
+    orbit = {"function": "G", "period": "2", "box": box, "matrix": matrix}
+    file.add("stable-cycle", {"orbit": orbit, "rounds": "2"})
     return file
 
 

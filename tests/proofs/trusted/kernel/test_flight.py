@@ -209,6 +209,7 @@ LIES = [  # what is false, the function, a box of states, the reason
     ("another wall first", clock(gaps=["2 - t", "1 - t"]), STATE, OTHER),
     ("another wall at once", clock(gaps=["2 - t", "2 - t"]), STATE, OTHER),
     ("another wall for some", clock(gaps=["2 - t", "2 + x - t"]), STATE, OTHER),
+    ("another wall before the last", clock(gaps=["2 + x - t", "2 + 1/20 - t"]), STATE, OTHER),
     ("another wall grazed", clock(gaps=["2 - t", "(t - 1)**2"]), STATE, OTHER),
     ("a gap undefined between", clock(gaps=["2 - t + 0*(1/(t - 1))"]), STATE, GRAZE),
     ("another gap undefined", clock(gaps=["2 - t", "3 - t + 0*(1/(t - 1))"]), STATE, GRAZE),

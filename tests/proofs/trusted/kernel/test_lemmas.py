@@ -78,9 +78,6 @@ def test_a_form_with_both_signs_makes_a_two_sided_shift():
 
 
 def test_sentences_in_full():
-    assert check(zero_file(value(SQUARE, ["-1", "2"], x=["1", "2"]))).sentences[0] == (
-        "`x**2 - 2` has a zero `x` in [1.4, 1.5]."
-    )
     assert says("unique-zero", UNIQUE, F=PLANE) == (
         "for `F(x, y) = (x*y - 1, x - y)` and `x` in [0.9, 1.1], `y` in [0.9, 1.1]: "
         "`F` has exactly one zero."
@@ -98,82 +95,6 @@ def test_a_sign_of_a_subdivision():
 
 
 # -- zeros -----------------------------------------------------------------------------------------
-
-
-def zero_file(of, bracket=("7/5", "3/2"), function=SQUARE):
-    made = document("formula-value", of)
-    witness = {"function": function, "value": "step", "bracket": list(bracket)}
-    made["steps"]["bracket"] = {"rule": "zero", "witness": witness}
-    made["claims"] = ["bracket"]
-    return json.dumps(made)
-
-
-AROUND = value(SQUARE, ["-2", "2"], x=["-2", "2"], tree=["1", "0", None, None])
-RISING = value(f"D({SQUARE}, x)", ["2", "4"], x=["1", "2"])
-
-
-def test_a_zero_has_opposite_signs_around_it():
-    assert check(zero_file(AROUND))
-    for bracket in (("3/2", "2"), ("0", "1"), ("-2", "2"), ("1", "1")):
-        with pytest.raises(Rejected, match="same sign"):
-            check(zero_file(AROUND, bracket))
-
-
-def test_the_only_zero_where_the_function_is_monotone():
-    only = check(zero_file(RISING)).sentences[0]
-    assert only == "`x**2 - 2` has a zero `x` in [1.4, 1.5], and no other in [1, 2]."
-    flat = value(f"D({SQUARE}, x)", ["0", "4"], x=["0", "2"])
-    falls = value(f"D({SQUARE}, x)", ["-4", "4"], x=["-2", "2"])
-    for step in (flat, falls, AROUND):
-        assert "no other" not in check(zero_file(step)).sentences[0]
-
-
-@pytest.mark.every
-@pytest.mark.parametrize(
-    ("bracket", "error"),
-    [
-        (("1", "7/5"), Rejected),
-        (("3/2", "2"), Rejected),
-        (("3/2", "3/2"), Rejected),
-        (("0", "3/2"), Malformed),
-        (("7/5", "3"), Malformed),
-        (("3/2", "7/5"), Malformed),
-    ],
-)
-def test_brackets_that_prove_nothing(bracket, error):
-    with pytest.raises(error):
-        check(zero_file(RISING, bracket))
-
-
-@pytest.mark.every
-@pytest.mark.parametrize(
-    ("step", "function"),
-    [
-        (RISING, "x**2 - 3"),
-        (RISING, "x**2 - y"),
-        (value("D(y**2 - 2, y)", ["2", "4"], y=["1", "2"]), SQUARE),
-        (value("x*y", ["1", "4"], x=["1", "2"], y=["1", "2"]), SQUARE),
-        (value(f"D({SQUARE}, x, x)", ["2", "2"], x=["1", "2"]), SQUARE),
-        (value(f"2*D({SQUARE}, x)", ["4", "8"], x=["1", "2"]), SQUARE),
-    ],
-)
-def test_a_zero_needs_a_step_about_its_function(step, function):
-    with pytest.raises(Malformed, match=r"this variable alone|another function"):
-        check(zero_file(step, function=function))
-
-
-def test_a_zero_needs_a_continuous_function():
-    """1/x changes sign without a zero; so does the tangent."""
-    for pole in ("1/x", "cos(x)/sin(x)"):
-        for tree in (None, ["1", "1/7", None, None]):
-            step = value(pole, ["-1000000", "1000000"], tree, x=["-1", "1"])
-            with pytest.raises(Rejected, match="not proved on"):
-                check(zero_file(step, ("-1", "1"), pole))
-
-
-def test_an_end_that_is_a_zero_has_no_sign():
-    with pytest.raises(Rejected, match="sign is not decided"):
-        check(zero_file(value("x", ["0", "1"], x=["0", "1"]), ("0", "1"), "x"))
 
 
 UNIQUE = {
@@ -285,7 +206,7 @@ def good():
     ("edit", "message"),
     [
         (lambda d: d["functions"].update(G=PLANE), "nothing uses: G"),
-        (lambda d: d["steps"].update(zero=d["steps"]["step"]), "not named like"),
+        (lambda d: d["steps"].update({"unique-zero": d["steps"]["step"]}), "not named like"),
         (
             lambda d: d.update(functions={"F": PLANE}, steps={"F": d["steps"]["step"]}),
             "not named like",

@@ -164,6 +164,12 @@ LIES = [
 ]  # fmt: skip
 
 
+def test_a_graze_is_one_in_its_times():
+    """Here x = 1/200 touches as well, but at t = 3."""
+    rule, data, witness = touch("((t - 1)**2 + x)*((t - 3)**2 + x + 1/200)")
+    assert "has a graze at a `t` in [0.75, 1.25]" in concluded(rule, data, **witness).sentence
+
+
 @pytest.mark.every
 @pytest.mark.parametrize(("case", "said"), [x[1:] for x in TRUTHS], ids=[x[0] for x in TRUTHS])
 def test_truths(case, said):

@@ -258,11 +258,6 @@ def test_boxes_are_apart_if_all_pairs_are():
     assert seen == {True, False}
 
 
-def test_a_fold_is_not_found():
-    with pytest.raises(Undecided):
-        source(((("x",), ("x + x**2",)), (("-1", "2"),)), 1)
-
-
 @pytest.mark.slow
 def test_a_period_too_long_for_the_precision():
     refused(SHIFT, 1, lambda witness: witness.update(period="90"), "another periodic orbit")

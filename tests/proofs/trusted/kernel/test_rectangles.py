@@ -340,9 +340,11 @@ LOGISTIC = {"variables": ["x"], "values": ["16/5*x*(1 - x)"]}
 SWAP = {"variables": ["x"], "values": ["2 - x - x**2/10"]}
 
 
-def cycle(data, box, period="1", rounds="1"):
+def cycle(data, box, period="1", rounds="1", matrix=None, **turns):
     proof = Proof(F=read_map("F", Reader(data), {}))
-    return proof("stable-cycle", function="F", box=box, period=period, rounds=rounds)[1]
+    matrix = matrix or [[str(-(i == j)) for j in range(len(box))] for i in range(len(box))]
+    orbit = {"function": "F", "period": period, "box": box, "matrix": matrix, **turns}
+    return proof("stable-cycle", orbit=orbit, rounds=rounds)[1]
 
 
 def test_a_fixed_point_and_a_cycle_of_two():
@@ -374,20 +376,25 @@ def test_rounds_help_where_a_box_turns():
     """x -> (x + 3 y/2, -y/4 ...): the first image leaves the box, a later one does not."""
     data = {"variables": ["x", "y"], "values": ["x/2 + 2*y", "y/2 - x/100"]}
     box = [["-1", "1"], ["-1", "1"]]
-    with pytest.raises(Unproved, match="mapped into itself"):
-        cycle(data, box)
-    assert cycle(data, box, rounds="8").rounds == 8
-    with pytest.raises(Unproved, match="the period is not proved"):
-        cycle(LOGISTIC, [["1/2", "53/100"]], rounds="2")
+    matrix = [["-50/27", "-200/27"], ["1/27", "-50/27"]]
+    for others in ({}, {"matrix": matrix}, {"rounds": "8"}):
+        with pytest.raises(Unproved, match="strictly inside"):
+            cycle(data, box, **others)
+    assert cycle(data, box, matrix=matrix, rounds="8").rounds == 8
+    with pytest.raises(Unproved, match="strictly inside"):  # its period is 2
+        cycle(LOGISTIC, [["1/2", "53/100"]], rounds="2", matrix=[["-1/2"]])
 
 
 def test_the_points_of_a_cycle_are_different_modulo_periods():
     """0 and 1/2 are a cycle modulo 1, and one point modulo 1/2."""
     data = {"variables": ["x"], "values": ["x + 1/2 - sin(4*pi*x)/20"]}
     box = [["-1/50", "1/50"]]
-    assert len(cycle({**data, "periods": {"x": "1"}}, box, "2").boxes) == 2
-    with pytest.raises(Unproved, match="may be the same"):
-        cycle({**data, "periods": {"x": "1/2"}}, box, "2")
+    whole, half = ({**data, "periods": {"x": period}} for period in ("1", "1/2"))
+    assert len(cycle(whole, box, "2", turns=["1"]).boxes) == 2
+    with pytest.raises(Unproved, match="strictly inside"):
+        cycle(whole, box, "2", turns=["0"])
+    with pytest.raises(Unproved, match="not proved to be different"):
+        cycle(half, box, "2", turns=["2"])
 
 
 # -- wider rectangles ------------------------------------------------------------------------------

@@ -11,6 +11,7 @@ from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational, sinc
 from proofs.trusted.kernel.complexes import BITS, Complex, Ellipse
 from proofs.trusted.kernel.elementary import log_of
 from proofs.trusted.kernel.transfer import Growth, Series
+from tests.proofs.trusted.paper.reference import as_mpf
 
 TINY = mpf(2) ** -40
 HULL = (Fraction("0.4"), Fraction("0.9"))
@@ -22,10 +23,6 @@ def _precise():
         yield
 
 
-def mpq(x):
-    return mpf(x.numerator) / x.denominator
-
-
 def box(chance, width):
     """A box of complex numbers with a point of it."""
     parts, point = [], []
@@ -33,13 +30,13 @@ def box(chance, width):
         low = Fraction(chance.randint(-3000, 3000), 1000)
         high = low + Fraction(chance.randint(0, 1000), 1000) * width
         parts.append(Enclosure.of(low, high, BITS))
-        point.append(mpq(low + (high - low) * Fraction(chance.randint(0, 4), 4)))
+        point.append(as_mpf(low + (high - low) * Fraction(chance.randint(0, 4), 4)))
     return Complex(*parts), mpc(*point)
 
 
 def holds(z, value):
     parts = zip(z.ranges, (value.real, value.imag), strict=True)
-    return all(mpq(low) <= part <= mpq(high) for (low, high), part in parts)
+    return all(as_mpf(low) <= part <= as_mpf(high) for (low, high), part in parts)
 
 
 SEVENTH = Fraction(-9, 7)
@@ -49,9 +46,9 @@ OPERATIONS = {
     "-": (lambda a, b: a - b, lambda a, b: a - b),
     "*": (lambda a, b: a * b, lambda a, b: a * b),
     "/": (lambda a, b: a / (b + 9), lambda a, b: a / (b + 9)),
-    "times a real": (lambda a, b: a * REAL * b, lambda a, b: a * mpq(SEVENTH) * b),
-    "a real times": (lambda a, b: REAL * (a + b), lambda a, b: mpq(SEVENTH) * (a + b)),
-    "/ a real": (lambda a, b: (a - b) / REAL, lambda a, b: (a - b) / mpq(SEVENTH)),
+    "times a real": (lambda a, b: a * REAL * b, lambda a, b: a * as_mpf(SEVENTH) * b),
+    "a real times": (lambda a, b: REAL * (a + b), lambda a, b: as_mpf(SEVENTH) * (a + b)),
+    "/ a real": (lambda a, b: (a - b) / REAL, lambda a, b: (a - b) / as_mpf(SEVENTH)),
     "1/": (lambda a, b: 1 / (a + 9), lambda a, b: 1 / (a + 9)),
     "of numbers": (lambda a, b: Fraction(2, 7) - a * 3, lambda a, b: mpf(2) / 7 - a * 3),
     "power": (lambda a, b: a**3, lambda a, b: a**3),
@@ -76,9 +73,9 @@ def test_sizes_and_spreads_are_bounds():
     chance = random.Random(3)
     for _ in range(50):
         z, value = box(chance, 1)
-        assert abs(value) <= mpq(z.size)
-        corner = mpc(*(mpq(low) for low, _ in z.ranges))
-        assert abs(value - corner) <= mpq(z.spread)
+        assert abs(value) <= as_mpf(z.size)
+        corner = mpc(*(as_mpf(low) for low, _ in z.ranges))
+        assert abs(value - corner) <= as_mpf(z.spread)
         wider = z.widened(Fraction(1, 3))
         assert holds(wider, value + mp.expjpi(chance.random() * 2) / 3)
 
@@ -96,11 +93,11 @@ def test_polynomials_on_arcs(rho):
     coefficients = [Fraction(chance.randint(-99, 99), 100) / rho**k for k in range(7)]
 
     def at(angle):
-        w = mpq(rho) * mp.expj(angle)
+        w = as_mpf(rho) * mp.expj(angle)
         powers = [(w**k, w**-k) for k in range(7)]
-        value = sum(mpq(c) * (p + q) / 2 for c, (p, q) in zip(coefficients, powers, strict=True))
+        value = sum(as_mpf(c) * (p + q) / 2 for c, (p, q) in zip(coefficients, powers, strict=True))
         rates = zip(range(7), coefficients, powers, strict=True)
-        return value, sum(1j * k * mpq(c) * (p - q) / 2 for k, c, (p, q) in rates) * one
+        return value, sum(1j * k * as_mpf(c) * (p - q) / 2 for k, c, (p, q) in rates) * one
 
     for count in (5, 64):
         for arc in ellipse.arcs(count)[::3]:
@@ -119,9 +116,9 @@ def test_polynomials_on_arcs(rho):
 @pytest.mark.parametrize("rho", [Fraction(3, 2), Fraction(7)])
 def test_what_an_ellipse_contains(rho):
     ellipse = Ellipse(HULL, rho)
-    centre, half = map(mpq, ellipse.coordinates)
+    centre, half = map(as_mpf, ellipse.coordinates)
     for k in range(24):
-        w = mpq(rho) * mp.expjpi(mpf(k) / 12)
+        w = as_mpf(rho) * mp.expjpi(mpf(k) / 12)
         for scale, inside in ((mpf("0.999"), True), (mpf("1.001"), False)):
             z = centre + half * (w + 1 / w) / 2 * scale
             found = Complex(*(rational(Fraction(mp.nstr(x, 30)), BITS) for x in (z.real, z.imag)))
@@ -155,7 +152,7 @@ def test_series_of_chebyshev_s_polynomials(bits, decay):
                     assert found.lo <= value <= found.hi
                 assert found.hi - found.lo < 4 * terms + 4 + 3 * width * terms**3
         size = sum(abs(mpf(c)) * 3**k for k, c in enumerate(h.coefficients)) / (1 << bits)
-        assert size <= mpq(h.size(Fraction(3))) < size * (1 + TINY) + TINY * decay
+        assert size <= as_mpf(h.size(Fraction(3))) < size * (1 + TINY) + TINY * decay
     for outside in ((1 << bits) - 1, -(1 << bits) - 1):
         with pytest.raises(Unproved):
             h(Enclosure(outside, outside + 2, bits))
@@ -167,10 +164,10 @@ def test_logarithms_of_enclosures(bits):
         value = Fraction(text)
         thin, wide = rational(value, bits), Enclosure.of(value, value * Fraction(101, 100), bits)
         for found, least in ((log_of(thin), 30), (log_of(wide), None)):
-            low, high = map(mpq, found.range)
-            assert low <= mp.log(mpq(value)) + mpf(2) ** (20 - bits) and mp.log(mpq(value)) <= high
+            (low, high), true = map(as_mpf, found.range), mp.log(as_mpf(value))
+            assert low <= true + mpf(2) ** (20 - bits) and true <= high
             assert least is None or high - low < mpf(2) ** (least - bits)
-        assert mp.log(mpq(value) * mpf(101) / 100) <= mpq(log_of(wide).range[1]) + mpf(2) ** (
+        assert mp.log(as_mpf(value) * mpf(101) / 100) <= as_mpf(log_of(wide).range[1]) + mpf(2) ** (
             20 - bits
         )
     for low, high in ((-1, 1), (0, 1), (1, 1 << 70)):
@@ -204,12 +201,12 @@ def test_the_dimension_of_a_growth():
     """Two maps with slopes 1/3: L_s 1 = 2 3^-s; the dimension is log 2 / log 3."""
     third, true = Fraction(1, 3), mp.log(2) / mp.log(3)
     for s in map(Fraction, ("1", "1/2", "0.6309297535714574")):
-        grown = Fraction(mp.nstr(2 * mp.mpf(3) ** -mpq(s), 40))
+        grown = Fraction(mp.nstr(2 * mp.mpf(3) ** -as_mpf(s), 40))
         spare = Fraction(1, 10**12)
         found = Growth(s, (grown - spare, grown + spare), ((third, third),) * 2)
         low, high = found.dimension(100)
-        assert mpq(low) <= true <= mpq(high)
-    assert mpq(high) <= 1 + TINY and mpq(low) > true - mpf(10) ** -9
+        assert as_mpf(low) <= true <= as_mpf(high)
+    assert as_mpf(high) <= 1 + TINY and as_mpf(low) > true - mpf(10) ** -9
     for change in ({"rates": ((third, Fraction(1)),)}, {"bounds": (Fraction(0), Fraction(1))}):
         given = {"s": s, "bounds": (third, third), "rates": ((third, third),)} | change
         with pytest.raises(Unproved):

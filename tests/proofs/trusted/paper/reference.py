@@ -84,6 +84,11 @@ def exact(x):
     return int(mp.sign(x)) * int(size) * Fraction(2) ** exponent
 
 
+def as_mpf(x):
+    """A rational at the precision of mpmath's context."""
+    return mpf(x.numerator) / x.denominator
+
+
 def number(ball):
     """The middle of a ball."""
     return mpf(ball.mid().str(60, radius=False))

@@ -21,8 +21,7 @@ from proofs.trusted.paper.s34_circle.cycles import Cycles, touching
 from proofs.trusted.paper.s34_circle.landing import NeverImpacts
 from proofs.trusted.paper.s34_circle.persistence import SuperstableMotion
 from proofs.trusted.parameters import PAPER
-from tests.oracles.adapter import view
-from tests.oracles.judge import oracle
+from tests.oracles.judge import oracle, view
 from tests.oracles.laps import graze
 from tests.proofs.trusted.paper.steps import add, derive, edited, evidence, known_of
 
@@ -113,9 +112,9 @@ def test_the_intervals_meet():
 
 
 EDITS = [
-    (("function", "epsilon", 1), add("1/1000")),
-    (("function", "eta"), lambda ends: [add("1/1000")(end) for end in ends]),
-    (("box",), lambda box: box[::-1]),
+    (("orbit", "function", "epsilon", 1), add("1/1000")),
+    (("orbit", "function", "eta"), lambda ends: [add("1/1000")(end) for end in ends]),
+    (("orbit", "box"), lambda box: box[::-1]),
 ]
 
 

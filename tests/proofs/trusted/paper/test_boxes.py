@@ -318,7 +318,7 @@ def test_launches_that_land_only_at_some_oscillators():
     made, _, last = at(LATE)
     last["landing"] = None
     del made["steps"]["lands-2"]
-    rejected(made, "end where the mass sticks|where the mass sticks")
+    rejected(made, "the last impact is not proved to be where the motion goes on from")
     made, _, last = at(LATE)
     last["landing"] = last["separation"]
     rejected(made, "names no step about where the last impact is", Malformed)

@@ -21,7 +21,7 @@ from proofs.trusted.kernel.meter import Exhausted, metered
 from proofs.trusted.numbers import Phases
 from proofs.trusted.paper.s32_sets.dimension import FULL, WITHOUT_000
 from proofs.trusted.paper.s32_sets.inverses import Inverses, Letter
-from proofs.trusted.paper.s32_sets.repeller import _read
+from proofs.trusted.paper.s32_sets.repeller import Repeller, _read
 from proofs.trusted.parameters import PAPER
 from proofs.trusted.rules import find_rule
 from tests.proofs.trusted.paper import reference
@@ -251,3 +251,21 @@ def known_with(j=0, **change):
 def test_another_branch_is_refused(change, reason):
     with pytest.raises(Unproved, match=reason):
         conclude(witness(), known_with(**change))
+
+
+@pytest.mark.every
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        ({"domains": (DOMAINS[0], Phases(Fraction("1.14"), HULL[1]))}, "in order"),
+        ({"slopes": ((Fraction(1), Fraction(2)), (Fraction(2), Fraction(3)))}, "to contract"),
+        ({"slopes": ((Fraction(2), Fraction(3)),)}, "to contract"),
+        ({"dimension": (Fraction(1), Fraction(1))}, "dimension are not in order"),
+    ],
+)
+def test_what_is_no_repeller(change, reason):
+    bounds = (Fraction(1, 3), Fraction(1, 2))
+    slopes = ((Fraction(2), Fraction(3)),) * 2
+    own = Repeller(PAPER.place, HULL, DOMAINS, ("0", "1"), slopes, Fraction(1), bounds, bounds)
+    with pytest.raises(Unproved, match=reason):
+        replace(own, **change)

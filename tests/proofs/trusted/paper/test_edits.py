@@ -65,9 +65,9 @@ def few_pieces():
 @once
 def grazing_curve():
     """The steps of a part of a curve of grazing, with the point where it meets the folds."""
-    made = Curves(Fraction(0), {})
+    made = Curves(Fraction(0))
     made.grazing(2, [x for x in seen_curves(2, Fraction(0))[-1] if 1.41 < x.eta < 1.45])
-    return made.steps
+    return made.derivation.steps
 
 
 @once
@@ -105,12 +105,15 @@ def shortest():
 LENGTHY = "dimension", "grazing-curve"
 SMALLER = dict.fromkeys(("branch", "lands", "absorption"), (PAPER, coarse))
 SMALLER |= dict.fromkeys(
-    ("pieces", "itinerary-graph", "expansion", "cycles", "grazing"), (TEN_PIECES, few_pieces)
+    ("pieces", "itinerary-graph", "expansion", "grazing"), (TEN_PIECES, few_pieces)
 )
 
 
 SMALLER |= {"grazing-curve": (None, grazing_curve), "grazing-meets": (None, grazing_curve)}
-SMALLER |= {"settles": (ALL_STICK, settling), "sticking-motion": (AFTER_THE_ARC, coming_back)}
+SMALLER |= {
+    "sticking-motion@all": (ALL_STICK, settling),
+    "sticking-motion": (AFTER_THE_ARC, coming_back),
+}
 
 
 SHAPES = {  # other steps by a rule, whose witnesses have other fields
@@ -122,9 +125,9 @@ SHAPES = {  # other steps by a rule, whose witnesses have other fields
 
 def source(rule):
     """Steps, what they prove, the name of one by this rule, or of the other shape after an @."""
-    rule, _, named = rule.partition("@")
-    if rule in SMALLER:
-        steps, context = SMALLER[rule][1](), derived(*SMALLER[rule])
+    shape, (rule, _, named) = rule, rule.partition("@")
+    if shape in SMALLER:
+        steps, context = SMALLER[shape][1](), derived(*SMALLER[shape])
         return steps, context, next(x for x, step in steps.items() if step["rule"] == rule)
     file, name = SHAPES[rule, named] if named else shortest()[rule]
     text = lemma(file) if file in EXAMPLES else committed()[file]
@@ -177,7 +180,7 @@ def again(context, name, rule, witness):
 
 
 OWN = [rule for rule, place in RULES.items() if not place.startswith("kernel.")]
-OWN += map("@".join, SHAPES)
+OWN += ["sticking-motion@all", *map("@".join, SHAPES)]
 OWN += ["moran-root", "itinerary", "staying-set", "covering-graph", "stable-orbit"]
 
 
@@ -209,11 +212,10 @@ ACCEPTED = {  # what may be done to which field, in some places; all else is ref
     "put_beside; states swapped doubled_in_place aside collapsed; weights put_to_1 swapped "
     "doubled_in_place nudged moved put_beside; growth nudged moved",
     "expansion": "cuts nudged; times nudged; scales doubled_in_place nudged moved put_beside "
-    "put_to_1; rate nudged",
-    "cycles": "orbits dropped swapped turned; time tighter looser widened nudged moved put_beside; "
-    "radius nudged moved; images dropped swapped doubled_in_place added turned",
+    "put_to_1; rate nudged; orbits dropped swapped turned; time tighter looser widened nudged "
+    "moved put_beside; radius nudged moved; images dropped swapped doubled_in_place added turned",
     "superstable-motion": "box tighter; cells added; bounces tighter looser widened nudged "
-    "put_beside; ratio nudged; rest nudged",
+    "put_beside",
     "superstable-motion@passes": "box tighter; bounces tighter looser widened",
     "single-solution": "phase tighter looser widened; n put_to_1; latest other_type nudged moved",
     "single-windows": "above tighter looser widened; below tighter looser widened; early "
@@ -222,11 +224,10 @@ ACCEPTED = {  # what may be done to which field, in some places; all else is ref
     "single-windows@below": "low nudged; ends tighter looser widened",
     "grazing-curve": "box tighter looser widened nudged; slope nudged put_to_0; matrix tighter "
     "narrowed looser nudged moved put_beside put_to_0; times dropped swapped doubled_in_place "
-    "nudged moved put_beside put_to_1; amplitudes tighter looser widened nudged moved put_beside "
-    "put_to_0 put_to_1; epsilon put_to_0",
+    "nudged moved put_beside put_to_1; epsilon put_to_0; points dropped emptied swapped turned "
+    "doubled_in_place added",
     "grazing-meets": "box tighter looser widened nudged put_beside; matrix doubled_in_place nudged "
-    "moved put_beside put_to_0; amplitude tighter looser widened nudged moved put_beside put_to_0 "
-    "put_to_1",
+    "moved put_beside put_to_0",
     "stable-singles": "most moved; cuts moved put_alike put_to_1",
 }
 

@@ -21,7 +21,6 @@ from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s34_circle.cycles import Coding, Cycles, Outer
 from proofs.trusted.paper.s34_circle.expansion import (
-    Expansion,
     beside,
     expansion,
     part,
@@ -63,7 +62,7 @@ def test_what_is_derived_is_what_the_oracles_see(known):
     """Grazes, square roots, pieces, how lengths grow, periodic orbits."""
     between = Between(*firsts(only(Pieces, known)[0]))
     assert between.full == 2 and "each infinite sequence of them" in between.sentence
-    judged = (Grazing, EntropyBound, EntropyRange, Expansion, Cycles)
+    judged = (Grazing, EntropyBound, EntropyRange, Cycles)
     for found in (x for kind in judged for x in only(kind, known)):
         assert oracle(found, random.Random(1), OF) == []
 
@@ -159,7 +158,7 @@ LIES = [  # that edits of all fields do not tell, in test_edits
     ("grazing", lambda w: w["times"].__setitem__(3, add(8)(w["times"][3])), "to rise"),
     ("grazing", lambda w: w.update(beyond=w["turn"]), "not in order"),
     ("expansion", lambda w: w["scales"].__setitem__(0, "0"), "scale > 0"),
-    ("cycles", lambda w: w.update(radius="0"), "no radius"),
+    ("expansion", lambda w: w.update(radius="0"), "no radius"),
     ("itinerary-graph", lambda w: w.update(growth="1/2"), "growth >= 1"),
     ("itinerary-graph", lambda w: w["weights"].__setitem__(0, "0"), "weights > 0"),
     (
@@ -188,7 +187,7 @@ def test_pieces_have_one_part_that_never_impacts(known):
 
 def test_what_is_beside_grazes_counts(known):
     """f expands on all cells, but nothing is said of the phases next to a graze."""
-    (found,) = only(Expansion, known)
+    found = only(Cycles, known)[0].expansion
     count = len(found.scales)
     fine = [[(F(1, 1000), (F(0), F(3)))]] * count
     assert expansion(found.pieces, fine, found.scales, found.rate) == found
@@ -280,25 +279,24 @@ def test_the_images_of_states_are_rounded_outward(known):
                 assert state[0] > common[0] - F(1, 10**7)
 
 
-def test_periodic_orbits_of_another_expansion_are_not_told_of(known):
+def test_g18_needs_both_bounds_of_the_words(known):
     (found,), (bounds,) = only(Cycles, known), only(EntropyRange, known)
-    other = replace(found.expansion, rate=F(9, 8))
-    told = find("G18").decide(OF, [bounds, other, found])
-    assert "periodic orbits of least period" not in told.theorem
-    told = find("G18").decide(OF, [bounds, found.expansion, found])
-    assert "periodic orbits of least period" in told.theorem
+    told = find("G18").decide(OF, [bounds, found])
+    assert told.verdict is Verdict.VERIFIED and "periodic orbits of least period" in told.theorem
+    for few in ([bounds], [found]):
+        assert find("G18").decide(OF, few).verdict is Verdict.UNDECIDED
 
 
 def test_an_orbit_twice_is_no_two(steps, known):
-    forged = edited(steps, ("cycles-1", "witness", "orbits"), lambda old: [*old, old[0]])
+    forged = edited(steps, ("expansion-1", "witness", "orbits"), lambda old: [*old, old[0]])
     with pytest.raises(Unproved, match="not proved different"):
         derive(forged, OF, known, steps)
 
 
 def test_an_orbit_that_is_not_given_is_left_open(steps, known):
     (found,) = only(Cycles, known)
-    forged = edited(steps, ("cycles-1", "witness", "orbits"), lambda old: old[1:])
-    less = derive(forged, OF, known, steps)["cycles-1"]
+    forged = edited(steps, ("expansion-1", "witness", "orbits"), lambda old: old[1:])
+    less = derive(forged, OF, known, steps)["expansion-1"]
     assert (less.words, len(less.left)) == (found.words[1:], len(found.left) + 1)
     assert less.counts[0] == (3, 4)
 
@@ -307,7 +305,7 @@ def test_an_orbit_that_is_not_given_is_left_open(steps, known):
 
 
 def test_an_expansion_and_a_range_of_other_pieces_are_no_coding(known):
-    (found,), (bounds,) = only(Expansion, known), only(EntropyRange, known)
+    found, (bounds,) = only(Cycles, known)[0].expansion, only(EntropyRange, known)
     cuts, end = found.pieces.arcs[2].cuts, found.pieces.arcs[2].times[1]
     arcs = (
         *found.pieces.arcs[:2],

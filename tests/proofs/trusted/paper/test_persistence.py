@@ -90,7 +90,8 @@ def test_the_orbit_persists_if_a_landing_counts_once_and_not_for_the_map(claim, 
     assert "a period of 2 pi * 4;" in found.theorem
     low, high = found.quantities["impact_phase"]
     leave = reference.separation_phase(ETA, NU)
-    assert low < exact(reference.first_impact(ETA, NU, leave)[1]) < high
+    digits = Fraction(1, 10**44)  # of the reference
+    assert low - digits < exact(reference.first_impact(ETA, NU, leave)[1]) < high + digits
 
 
 @pytest.mark.parametrize("claim, verdict", [("G7", "VERIFIED"), ("G12", "REFUTED")])
@@ -211,7 +212,6 @@ EDITS = [
     ((*CHATTER, "cells"), lambda cells: [*cells, cells[-1]]),
     ((*CELL, "epsilon", 0), add("1/1000")),
     ((*CHATTER, "cells", 0, "epsilon", 0), lambda text: "-1/1000"),
-    ((*CELL, "rest"), add("-1/100")),
     ((*CELL, "bounces", 0), lambda ends: ["0", ends[1]]),
     ((*CELL, "bounces", 0, 1), add("2")),
 ]
@@ -226,28 +226,27 @@ def test_an_edited_witness_is_refused(path, change):
 def alone(**cell):
     """The rule on one cell and these words beside it, after the true flight."""
     spread = cell.pop("spread", "0")
-    cells = [{"epsilon": ["0", "1/100"], "bounces": [], "ratio": "1/50", "rest": "5"} | cell]
+    cells = [{"epsilon": ["0", "1/100"], "bounces": []} | cell]
     box = [widen(ends, spread) for ends in short()[MOTION]["witness"]["box"]]
     witness = {"separation": ARC, "box": box, "impacts": [], "cells": cells}
     return derive(edited(short(), CHATTER, lambda old: witness))[MOTION]
 
 
 def test_one_cell_alone():
-    assert alone().at.epsilon == (0, Fraction(1, 100)) and alone().rest == 5
+    assert alone().at.epsilon == (0, Fraction(1, 100)) and alone().rest < Fraction("4.7")
     assert alone(epsilon=["1/200", "1/100"]).at.epsilon == (Fraction(1, 200), Fraction(1, 100))
     with pytest.raises(Unproved, match="positive"):
         alone(spread="7/10")
     with pytest.raises(Unproved, match="coefficients"):
         alone(epsilon=["0", "0"])
-    with pytest.raises(Unproved, match="end by the phase of rest"):
-        alone(rest="93/20")
 
 
 def test_the_kick_of_the_largest_epsilon_counts():
     """At 1/5 the first bounce, from the speed 0.1352, takes 0.37; the lemma grants 0.6 in all."""
-    assert alone(epsilon=["0", "1/5"], ratio="23/100", rest="21/4").largest == Fraction(1, 5)
-    with pytest.raises(Unproved, match="end by the phase of rest"):
-        alone(epsilon=["0", "1/5"], ratio="23/100", rest="5")
+    found = alone(epsilon=["0", "1/5"])
+    assert found.largest == Fraction(1, 5) and found.rest > 5
+    with pytest.raises(Unproved, match="to end before phi_s"):
+        alone(epsilon=["0", "9/10"])
 
 
 def test_a_bounce_that_leaves_the_arc_is_refused():

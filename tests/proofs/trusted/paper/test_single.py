@@ -25,6 +25,7 @@ from proofs.trusted.paper.s4_single.orbits import (
 from tests.oracles import single
 from tests.oracles.motion import inside, inside_mod
 from tests.proofs.trusted.paper import reference
+from tests.proofs.trusted.paper.reference import as_mpf
 
 
 def system(eta, nu):
@@ -35,10 +36,6 @@ def middle(pair):
     return mpf(pair[0].numerator) / pair[0].denominator / 2 + mpf(pair[1].numerator) / (
         2 * pair[1].denominator
     )
-
-
-def real(value):
-    return mpf(value.numerator) / value.denominator
 
 
 def drawn(seed, count, sign=0, most=1.5):
@@ -81,7 +78,7 @@ def test_closed_forms_of_a_solution():
     """With p = nu sin(phi)/h: the gap of its flight, and nu^2 = A(p)."""
     rng = random.Random(5)
     for of, n in drawn(6, 25):
-        eta, nu, x = real(of.eta), real(of.nu), mp.pi * n * real(of.eta)
+        eta, nu, x = as_mpf(of.eta), as_mpf(of.nu), mp.pi * n * as_mpf(of.eta)
         turn = mp.sin(x), mp.cos(x)
         for one in solutions(of, n, 150):
             phi, t = middle(one.phase), mpf(rng.uniform(0.1, 20))

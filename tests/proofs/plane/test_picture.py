@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from intervals import Undecided
-from proofs.plane.overlay import GRAZING, overlay
+from proofs.plane.picture import GRAZING, overlay
 from proofs.search.curves import Curves
 from proofs.trusted.atlas import Region
 from tests.oracles.curves import distance
