@@ -8,6 +8,7 @@ exactly one periodic orbit of least period 4 that begins at ...
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from copy import copy
 from fractions import Fraction
 from typing import Any, Self
@@ -18,12 +19,13 @@ from proofs.methods.grammar import GrammarError, as_typed, canonical, name, name
 from proofs.theorem import Theorem
 from proofs.trusted.certificate import Malformed, texts
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.numbers import Range
+from proofs.trusted.numbers import Range, show_range
 
 Box = Mapping[str, Sequence[Exact]]  # by variables
 
 _DIGITS, _BITS = 12, 128  # of images
 EFFORT = 3
+_PARTS = Fraction(1, 4), Fraction(1, 16), Fraction(1, 64)  # of ranges that are too wide
 _POINTS, _PASSED, _LONGEST = 1500, 4, 8  # of a picture; periods that are looked for
 _ITERATES = 9  # of which horseshoes are asked for
 _SIDE = Fraction(-3), Fraction(3)  # of a box where points are looked for, if none is given
@@ -64,7 +66,7 @@ class Map:
         if len(state) != len(values):
             raise GrammarError(
                 f"{len(values)} formulas for the variables {listed(state) or '(none)'}: as many "
-                "are expected; give numbers to parameters, as in Map('r*x', r='2')"
+                "are expected; give numbers to parameters, as in Map('r*x', r='2'), or --set r=2"
             )
         self._begin({"F": {"variables": state, **fields, "values": values}}, "F")
 
@@ -99,12 +101,27 @@ class Map:
     @property
     def ranges(self) -> tuple[str, ...]:
         """The parameters for all of whose values theorems hold."""
-        sides = {
-            name: side
-            for function in self.functions.values()
-            for name, side in function.get("parameters", {}).items()
-        }
-        return tuple(name for name, (low, high) in sides.items() if low != high)
+        return tuple(self._sides)
+
+    @property
+    def _sides(self) -> dict[str, Range]:
+        known = self.functions[self.function].get("parameters", {})
+        return {typed(name): (Fraction(x), Fraction(y)) for name, (x, y) in known.items() if x != y}
+
+    def narrower(self, ask: Callable[[Self], Theorem]) -> str:
+        """Say for which part of the ranges a question has an answer, if one is found for some."""
+
+        def around(part: Fraction | int) -> dict[str, Range]:
+            ends = {name: ((x + y) / 2, (y - x) / 2 * part) for name, (x, y) in self._sides.items()}
+            return {name: (middle - r, middle + r) for name, (middle, r) in ends.items()}
+
+        with suppress(Undecided):
+            ask(self.at(**around(0)))
+            for part in _PARTS:
+                with suppress(Undecided):
+                    ask(self.at(**around(part)))
+                    return ", ".join(f"{x} in {show_range(y)}" for x, y in around(part).items())
+        return ""
 
     def __repr__(self) -> str:
         """Return the definition."""
@@ -174,7 +191,7 @@ class Map:
             except Undecided as error:
                 reason = str(error)
         hint = f"; horseshoe:{min(longest + 2, _ITERATES)} looks at later iterates"
-        raise Undecided(reason + hint * (longest < _ITERATES))
+        raise Undecided(reason + hint * (longest < _ITERATES and not self.ranges))
 
     def periodic_orbits(self, period: int, box: Box) -> Theorem:
         """Prove which periodic orbits a formula has in a box, and that there are no others."""

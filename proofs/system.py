@@ -18,10 +18,11 @@ from typing import Any, Self
 
 from intervals import Undecided
 from proofs.map import Map, theorem_of
-from proofs.methods.ends import Ends, box_of, ends_of
-from proofs.methods.grammar import GrammarError
+from proofs.methods.ends import Ends, box_of, ends_of, exact_sides
+from proofs.methods.grammar import GrammarError, typed
 from proofs.methods.system_file import SystemFile
 from proofs.theorem import Theorem
+from proofs.trusted.numbers import Range
 
 _ADVICE = {  # what a reason means in the motion, what is not proved, and the next step
     "it is not proved that the gap is > 0": "where impacts get slower and slower, as in chatter, "
@@ -73,12 +74,10 @@ class System(Map):
 
     def around(self, *walls: str) -> System:
         """Return the system with the map that hits these walls in turn, back to the first."""
-        if unknown := sorted({*walls} - {*self.walls}):
-            raise ValueError(f"no wall {unknown[0]!r}; there are {', '.join(self.walls)}")
         if not walls:
             raise ValueError(f"walls are expected, of {', '.join(self.walls)}")
         other = copy(self)
-        other._turn([self.walls.index(each) for each in walls])
+        other._turn([*map(self._wall, walls)])
         return other
 
     def at(self, **parameters: Ends) -> Self:
@@ -86,6 +85,11 @@ class System(Map):
         other = type(self)(self._file.file, **{**self._given, **parameters})
         other.box, other.effort = dict(self.box), self.effort
         return other
+
+    @property
+    def _sides(self) -> dict[str, Range]:
+        sides = exact_sides(self._file.parameters)
+        return {typed(name): side for name, side in sides.items() if side[0] != side[1]}
 
     @classmethod
     def read(cls, path: str | Path, **parameters: Ends) -> Self:
@@ -213,7 +217,7 @@ class System(Map):
 
     def _wall(self, wall: str) -> int:
         if wall and wall not in self.walls:
-            raise ValueError(f"no wall {wall!r}; there are {', '.join(self.walls)}")
+            raise ValueError(f"no wall {wall!r}; walls are {', '.join(self.walls)}")
         return self.walls.index(wall) if wall else 0
 
     def _flights(self, name: str, function: Mapping[str, Any]) -> Any:

@@ -100,7 +100,7 @@ _QUESTIONS = {
     ),
 }
 _USUAL = {"horseshoe": 2}  # the number N, where none is given
-_COUNTED = {"orbits": "orbits", "all": "periodic_orbits"}  # methods that take a period
+_METHODS = {"all": "periodic_orbits"}  # of other names than the questions
 _ASKABLE = ", ".join(each.example for each in _QUESTIONS.values())
 EPILOG = """\
 exit status: 0 all that is asked is proved; 1 something is undecided; 2 no system, or no file
@@ -282,21 +282,28 @@ def _side(text: str) -> tuple[str, str]:
 
 
 def _answer(system: Map, asked: str) -> Answer:
-    kind, _, more = asked.partition(":")
-    ask = getattr(system, _COUNTED.get(kind, kind), None)
-    if ask is None:
-        raise ValueError(f"{kind} is asked of systems, not of maps")
     try:
-        if kind == "all":
-            return Answer(asked, ask(int(more), system.box), "")
-        if kind == "horseshoe":
-            return Answer(asked, ask(longest=int(more or _USUAL[kind])), "")
-        if kind in _COUNTED:
-            return Answer(asked, ask(int(more)), "")
-        values = {name: _ends(value) for name, value in map(_pair, more.split(","))} if more else {}
-        return Answer(asked, ask(**values), "")
+        return Answer(asked, _ask(system, asked), "")
     except Undecided as error:
-        return Answer(asked, None, as_typed(str(error)))
+        why = as_typed(str(error))
+    part = system.narrower(lambda other: _ask(other, asked)) if system.ranges else ""
+    return Answer(asked, None, why + f"; narrower ranges do: {part}" * bool(part))
+
+
+def _ask(system: Map, asked: str) -> Theorem:
+    kind, _, more = asked.partition(":")
+    method: Callable[..., Theorem] | None = getattr(system, _METHODS.get(kind, kind), None)
+    if method is None:
+        raise ValueError(f"{kind} is asked of systems, not of maps")
+    if kind == "all":
+        return method(int(more), system.box)
+    if kind == "horseshoe":
+        return method(longest=int(more or _USUAL[kind]))
+    if kind == "orbits":
+        return method(int(more))
+    return method(
+        **{name: _ends(value) for name, value in map(_pair, filter(None, more.split(",")))}
+    )
 
 
 def _told(answers: Sequence[Answer], seen: Sequence[str]) -> Iterator[str]:

@@ -88,7 +88,7 @@ def fates(sampled: Sampled, box: Sequence[Range], way: Followed, longest: int) -
                 f"{count} come to an orbit of period {len(cycle.points)} through ({start})"
             )
     if others := sum(not each for each in near):
-        lines.append(f"{others} come to no orbit of a period up to {longest}")
+        lines.append(f"{others} come to no attracting orbit of a period up to {longest}")
     return [*lines, *_angles(sampled, seeds(sampled, box, _FOLLOWED, 0))]
 
 

@@ -53,6 +53,8 @@ _SIGNS = {
     "y', with a straight quote": "\u2019\u2032",
     "y'', with straight quotes": "\u201d\u2033",
 }
+_NUMBERS = {"pi": ": what has pi in it is written in the formulas", ",": ": write a decimal point"}
+_ASCII = {"%": f": {_CIRCLE}", "|": ": write abs(...)"}
 _KNOWN = (*FUNCTIONS, *_DERIVED)
 _NAME = re.compile(r"[A-Za-z](?:[a-z0-9_]{0,9}[a-z0-9])?")
 
@@ -69,8 +71,8 @@ def exact(value: int | Fraction | str) -> Fraction:
     try:
         number = fraction(value)
     except ValueError as error:
-        hint = ": what has pi in it is written in the formulas" if "pi" in str(value) else ""
-        raise GrammarError(f"{error}{hint}") from None
+        hints = (hint for sign, hint in _NUMBERS.items() if sign in str(value))
+        raise GrammarError(f"{error}{next(hints, '')}") from None
     if max(abs(number.numerator), number.denominator) >= 10**_DIGITS:
         raise GrammarError(f"a number of more than {_DIGITS} digits: {str(value)[:20]}...")
     return number
@@ -86,6 +88,10 @@ def canonical(text: str, time: str = "") -> str:
         tree = _parsed(python)
     except SyntaxError:
         raise GrammarError(f"not a formula: {_short(text)}") from None
+    if isinstance(tree, ast.Tuple):
+        raise GrammarError(
+            f"several formulas are several texts, not one with commas: {_short(text)}"
+        )
     try:
         return str(formula(ast.unparse(_rewritten(tree, text))))
     except ValueError as error:
@@ -166,7 +172,7 @@ def _python(text: str, time: str) -> Iterator[str]:
 def _hint(letter: str) -> str:
     """Say what to write in the place of a character that is in no formula."""
     if letter.isascii():
-        return f": {_CIRCLE}" if letter == "%" else ""
+        return _ASCII.get(letter, "")
     for usual, others in _SIGNS.items():
         if letter in others:
             return f": write {usual}"

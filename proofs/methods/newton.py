@@ -154,7 +154,7 @@ def prove_orbits(file: Derivation, function: str, cycles: Sequence[Cycle]) -> li
 
     Raises Undecided where there is none, with the last reason.
     """
-    steps, reason = [], "none is seen"
+    steps, reason = [], "no isolated one is seen"
     for cycle in cycles:
         try:
             steps.append(_prove_orbit(file, function, cycle))
@@ -162,8 +162,7 @@ def prove_orbits(file: Derivation, function: str, cycles: Sequence[Cycle]) -> li
             place = ", ".join(f"{value:.6g}" for value in cycle.points[0])
             reason = f"of {len(cycles)} that are seen none, such as that through ({place}): {error}"
     if not steps:
-        hint = "; narrower ranges of parameters may do" if ranges_of(file.map(function)) else ""
-        raise Undecided(reason + hint)
+        raise Undecided(reason)
     return steps
 
 

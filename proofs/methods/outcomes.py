@@ -25,8 +25,8 @@ from proofs.trusted.rules import find_rule
 _TIMES = (16, 64, 256)  # after which the end is looked at
 _PARTS = 60  # of a box of states
 _POINTS, _HALVINGS, _STEPS = 400, 40, 8
-_LATER = 1e-3  # by which impacts on both sides of a graze differ
-_SIZES = (  # of boxes around a graze: the variable, the time
+_LATER = 1e-3  # by which impacts on both sides of a graze differ, in units of the motion's pace
+_SIZES = (  # of boxes around a graze: the variable, the time in such units
     (Fraction(1, 10**9), Fraction(1, 10**3)),
     (Fraction(1, 10**12), Fraction(1, 10**4)),
     (Fraction(1, 10**6), Fraction(1, 10**2)),
@@ -90,9 +90,10 @@ def graze(file: Derivation, function: str, box: Box) -> str:
     if len(free) != 1:
         raise ValueError("one variable with a range is expected, and numbers for the others")
     reason, axis = "no graze is seen", free[0]
-    for value, time in _touches(flight, box, axis):
+    unit = Sampled(flight).unit(flight)
+    for value, time in _touches(flight, box, axis, unit):
         for radius, width in _SIZES:
-            sides, window = list(box), _around(time, width)
+            sides, window = list(box), _around(time, width * Fraction(f"{unit:.3g}"))
             sides[axis] = _around(value, radius)
             witness = {"function": function, "box": list(map(texts, sides)), "axis": str(axis + 1)}
             try:
@@ -107,8 +108,11 @@ def _around(value: float, radius: Fraction) -> Range:
     return middle - radius, middle + radius
 
 
-def _touches(flight: Flight, box: Box, axis: int) -> Iterator[tuple[float, float]]:
-    """Yield values of a variable, where the time of the impact jumps, and times: gap = gap' = 0."""
+def _touches(flight: Flight, box: Box, axis: int, unit: float) -> Iterator[tuple[float, float]]:
+    """Yield values of a variable, where the time of the impact jumps, and times: gap = gap' = 0.
+
+    Not those right after launch, where every gap is 0.
+    """
     sampled, point = Sampled(flight), np.array([[float(x)] for x in centre_of(box)])
 
     def times(values: Floats) -> Floats:
@@ -126,11 +130,11 @@ def _touches(flight: Flight, box: Box, axis: int) -> Iterator[tuple[float, float
             is_first = np.abs(time - first) <= np.abs(time - last)
             low, first = np.where(is_first, (middle, time), (low, first))
             high, last = np.where(is_first, (high, last), (middle, time))
-        jumps = np.flatnonzero(np.abs(first - last) > _LATER)
+        jumps = np.flatnonzero(np.abs(first - last) > _LATER * unit)
     for k in jumps:
         point[axis] = low[k]
         touch = _polished(flight, point[:, 0], axis, min(first[k], last[k]))
-        if all(map(math.isfinite, touch)):
+        if math.isfinite(touch[0]) and touch[1] > 20 * _LATER * unit:
             yield touch
 
 

@@ -265,15 +265,20 @@ class Sampled:
         for _ in range(_NEWTON):
             value, rate = slope(*x, time)
             time = time - value / rate
-        return np.where((low <= time + step) & (time <= low + 2 * step), time, np.nan)
+        is_near = (time > 0) & (low <= time + step) & (time <= low + 2 * step)
+        return np.where(is_near, time, np.nan)
 
     def _steps(self, flight: Flight) -> tuple[float, float]:
         """Return the time between two looks at the gaps, and the longest time."""
+        unit = self.unit(flight)
+        return _STEP * unit, min(_LONGEST, _PERIODS * _LONGEST * unit)
+
+    def unit(self, flight: Flight) -> float:
+        """Return a time in which the fastest phase of the gaps turns by about 1, or 1."""
         formulas, time = flight.formulas, len(flight.variables)
         start = [np.zeros(1)] * (time + 1)
         speeds = phase_speeds(formulas.tape, formulas.roots[: len(flight.gaps)], time)
-        faster = pace(self._evaluated(formulas, speeds, start) if speeds else ())
-        return _STEP / faster, min(_LONGEST, _PERIODS * _LONGEST / faster)
+        return 1 / pace(self._evaluated(formulas, speeds, start) if speeds else ())
 
     def _evaluated(self, formulas: Formulas, roots: Sequence[int], x: list[Floats]) -> Floats:
         values = self._function(formulas, tuple(roots))(*x)

@@ -7,7 +7,7 @@ from typing import Any
 
 from intervals import Undecided
 from proofs.methods.ends import Ends, exact_sides, optional
-from proofs.methods.grammar import GrammarError, canonical, name
+from proofs.methods.grammar import GrammarError, canonical, name, names, typed
 from proofs.methods.orders import FirstOrder, first_order
 
 _HEAD = {"variables", "time", "motion"}
@@ -103,6 +103,10 @@ class SystemFile:
         """
         own = _table(self.impacts[wall].get("at", {}), "at")
         known = {each: self.parameters.get(str(value), value) for each, value in own.items()}
+        try:
+            exact_sides(known)
+        except ValueError as error:
+            raise GrammarError(f"at: {error}; a number, or a parameter, is expected") from None
         return {**self.parameters, **known}
 
     def next(self, wall: int) -> list[int]:
@@ -155,8 +159,14 @@ class SystemFile:
         which = name(which)
         if self.is_validated:
             return {"name": which, "equation": equation, "start": start}
+        coupled = sorted({*names(equation)} & {*map(name, self.file["motion"])} - {which})
         if "form" in motion:
             form = self._formula(motion["form"], f"the form of {which}")
+        elif coupled:
+            raise GrammarError(
+                f"{typed(coupled[0])} is in the equation of {typed(which)}, and forms are found of "
+                'one equation alone: give the form of each, or flow = "validated"'
+            )
         else:
             form = self._closed(which, equation, start, parameters)
         return {"name": which, "form": form, "equation": equation, "start": start}
@@ -172,7 +182,7 @@ class SystemFile:
         try:
             return closed_form(which, self.time, equation, start, numbers)
         except Undecided as error:
-            raise GrammarError(f"{error}: give its `form` in the file") from None
+            raise GrammarError(f'{error}: give its `form`, or flow = "validated"') from None
 
     def _formula(self, text: Any, what: str) -> str:
         try:

@@ -4,11 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from itertools import product
+
+import numpy as np
 
 from intervals import Undecided
 from proofs.methods.derivation import Derivation
 from proofs.methods.divisions import holds, scale_of
 from proofs.methods.formulas import Tree, subdivide
+from proofs.methods.newton import seeds
+from proofs.methods.sampling import Floats, Sampled
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.arithmetic import Enclosure
 from proofs.trusted.kernel.enclose import Box
@@ -18,6 +23,7 @@ from proofs.trusted.numbers import Range, ceil_text, floor_text, hull
 
 _MOST_BOXES = 1000  # of a tree
 _DIGITS = 12  # of bounds
+_SEEN = 200  # points at random that are looked at where images are not proved to be inside
 
 
 def prove_trapping(file: Derivation, function: str, boxes: Sequence[Box]) -> str:
@@ -46,8 +52,25 @@ def _image(map_: Map, box: Box, union: Sequence[Box]) -> tuple[Tree, Box]:
         scale = scale_of(map_, box)
         tree = subdivide(box, lambda part: holds(map_, part, inside), scale, _MOST_BOXES)
     except Undecided as error:
-        raise Undecided(f"images are not all seen to lie in the boxes: {error}") from None
+        raise Undecided(_leaving(map_, box, union) or f"images may be outside: {error}") from None
     return tree, tuple(map(hull, zip(*images, strict=True)))
+
+
+def _leaving(map_: Map, box: Box, union: Sequence[Box]) -> str:
+    """Say which point of a box is seen to leave the union, if one is; not proved."""
+    sampled, corners = Sampled(map_), np.array([*product(*box)], float).T
+    points = np.concatenate([corners, seeds(sampled, box, _SEEN, 0)], axis=1)
+    for point, image in zip(points.T, sampled(points).T, strict=True):
+        place = tuple((Fraction(x), Fraction(x)) for x in image) if np.isfinite(image).all() else ()
+        if not place:
+            return f"no image of {_shown(point)} is seen"
+        if outside(sides_of(map_, place), [sides_of(map_, each) for each in union]):
+            return f"{_shown(point)} is seen to go to {_shown(image)}, outside"
+    return ""
+
+
+def _shown(point: Floats) -> str:
+    return f"({', '.join(f'{value:.6g}' for value in point)})"
 
 
 def _rounded(values: Range) -> Range:

@@ -43,11 +43,11 @@ _LONGEST_FLIGHT = 10**6  # the checker looks no further
 
 
 class Parser(Arguments):
-    """A parser of arguments that takes -1/5 and -2e-3 for numbers."""
+    """A parser of arguments that takes -1/5 for a number, and -x for a formula."""
 
     def __init__(self, prog: str, description: str | None, epilog: str) -> None:
         super().__init__(prog, description, epilog)
-        self._negative_number_matcher = re.compile(r"^-[0-9.]")
+        self._negative_number_matcher = re.compile(r"^-[^-]")
 
 
 def number(text: str) -> Fraction:
