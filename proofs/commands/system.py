@@ -205,7 +205,7 @@ def _options(arguments: list[str] | None) -> Namespace:
 
 def add_subject(parser: Parser) -> None:
     """Add the options by which a system or a map is given."""
-    parser.add_argument("file", nargs="?", metavar="FILE", help="a system's file")
+    parser.add_argument("file", nargs="?", type=_file, metavar="FILE", help="a system's file")
     names = ", ".join(System.examples())
     parser.add_argument("--example", metavar="NAME", help=f"a published system: {names}")
     parser.add_argument("--map", nargs="+", metavar="FORMULA", help="the formulas of a map")
@@ -217,6 +217,12 @@ def add_subject(parser: Parser) -> None:
     parser.add_argument("--box", nargs="+", type=_pair, metavar="NAME=LOW:HIGH", help=help_text)
     help_text = "the walls that are hit in turn, of a system with several (default: as in the file)"
     parser.add_argument("--walls", nargs="+", metavar="WALL", help=help_text)
+
+
+def _file(text: str) -> str:
+    if text.startswith("-"):  # which begins formulas, too
+        raise ArgumentTypeError(f"there is no option {text[:40]!r}")
+    return text
 
 
 def _pair(text: str) -> tuple[str, str]:

@@ -181,6 +181,7 @@ QUESTIONS = {  # of x/2
 REFUSED = {  # arguments, and what the line says
     "atlas": [
         ("--depth -1", "from 0 to 40"),
+        ("-z", "there is no option"),
         (f"--depth {'0' * 30}41", "from 0 to 40"),
         (f"--jobs {'9' * 30}", "from 1 to 1000"),
         ("--eta 0.3 0.2 --nu -0.2 -0.1 --ask horseshoe", "eta: reversed or empty"),
