@@ -189,7 +189,7 @@ def all_stick(found: Found) -> AllStick | None:
     for arc in found.all(Separation):
         with suppress(Unproved):
             return AllStick(arc)
-    return None
+    return found.first(AllStick)
 
 
 def prove_sticking_motion(
