@@ -111,17 +111,21 @@ def _at_point(prover: Prover, phases: Range) -> Image:
         return prover.claimed(prover.point(phases[0])[0])
 
     def at_precision(bits: int) -> Image:
-        time, slope = _flight(prover, phases, bits + _ROOM)
+        try:
+            time, slope = _flight(prover, phases, bits + _ROOM)
+        except Unproved:
+            if touch := _touch(prover, phases):  # which more bits do not mend
+                raise _Touches(touch) from None
+            raise
         arrival = phase_after(phases[0], time, bits + _ROOM)
         return Image(time, arrival, slope, sticking=False, prove=prove)
 
-    try:
-        final = (NoImpact,)
-        return to_digits(prover.digits, at_precision, lambda x: (x.flight, x.phase, x.slope), final)
-    except NoImpact:
-        raise
-    except Undecided as failure:
-        raise Undecided(_touch(prover, phases) or str(failure)) from None
+    final = (NoImpact, _Touches)
+    return to_digits(prover.digits, at_precision, lambda x: (x.flight, x.phase, x.slope), final)
+
+
+class _Touches(Undecided):
+    """A flight touches the table, if there was no impact just before."""
 
 
 def _flight(prover: Prover, phases: Range, bits: int) -> tuple[Range, Range]:
