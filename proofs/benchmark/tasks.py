@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from functools import cache
 from itertools import pairwise
@@ -97,11 +97,6 @@ def _about(phase: float) -> float:
     if impact is None:
         raise Undecided("no impact is seen")
     return impact.time
-
-
-def by_bounds(of: Callable[[Work, int], Range], order: int, boxes: float) -> float:
-    """Do the work by what bounds f' on one domain."""
-    return loss([of(work, order) for work in works(int(boxes))])
 
 
 def by_library(library: str, order: int, digits: float | None, boxes: float) -> float:
