@@ -240,10 +240,10 @@ def beside(curves: Sequence[Curve]) -> list[Row]:
     rows, first = [], dict[tuple[str, str], Curve]()
     for theirs in curves:
         own = first.setdefault((theirs.work, theirs.way.rpartition(", ")[0]), theirs)
-        known = {point.size: point.seconds for point in own.measured}
-        common = [point for point in theirs.measured if point.size in known]
+        ours = {point.size: point.seconds for point in own.measured}
+        common = [point for point in theirs.measured if point.size in ours]
         if own is not theirs and theirs.way.endswith(PEERS) and common:
             size, _, seconds, _ = common[-1]
             name = f"{own.work}: {theirs.way} / {own.way}, {own.unit} {size:g}"
-            rows.append(ratio_row(name, seconds, known[size]))
+            rows.append(ratio_row(name, seconds, ours[size]))
     return rows

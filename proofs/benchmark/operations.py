@@ -44,14 +44,14 @@ def operands(library: str, bits: int, length: int) -> dict[str, Any]:
         upper[name] = [x + width * random.random() for x in lower[name]]
     if library == ARRAY:
         return {name: IntervalArray.from_floats(lower[name], upper[name]) for name in lower}
-    of, functions = arithmetic(library, bits), dict[str, Any]()
+    number, functions = arithmetic(library, bits).number, dict[str, Any]()
     if library == FLINT:
         import flint
 
         flint.ctx.prec = bits
     elif library == IV:
-        functions = {name: getattr(of.point(1).ctx, name) for name in ("sqrt", "sin", "exp", "log")}
-    return functions | {name: list(map(of.number, lower[name], upper[name])) for name in lower}
+        functions = {x: getattr(number(1, 1).ctx, x) for x in ("sqrt", "sin", "exp", "log")}
+    return functions | {name: list(map(number, lower[name], upper[name])) for name in lower}
 
 
 class _Pair(NamedTuple):

@@ -107,7 +107,7 @@ def _flint(bits: int) -> Arithmetic:
         positive=arb(0).__lt__,  # 0 < x
         call=lambda function, x: getattr(x, function)(),
         series=lambda coefficients: series(coefficients, len(coefficients)),
-        coefficient=lambda of, k: of[k],
+        coefficient=lambda taylor, k: taylor[k],
         precision=flint.ctx.workprec,
         greater=operator.gt,
     )

@@ -83,7 +83,7 @@ def judge(case: Case, kernel: Arithmetic, allowed: float = 1.0) -> Judgement:
 
 
 def _has_impact(case: Case, kernel: Arithmetic) -> bool:
-    return any(truth is not None and truth.known for truth in case.truths(kernel))
+    return any(truth is not None and truth.bounds for truth in case.truths(kernel))
 
 
 def _excluded(
@@ -99,12 +99,12 @@ def _excluded(
 
 def _wrong(said: Ranges, truth: Truth, kernel: Arithmetic) -> str:
     """Say which true values are outside what was said of them; nothing where all are inside."""
-    if not truth.known:
+    if not truth.bounds:
         return f"there is no value: {truth.reason}"
     wrong = []
     for name, (low, high) in said.items():
-        if name in truth.known:
-            true = _beside(name, truth.known[name], (low, high), kernel)
+        if name in truth.bounds:
+            true = _beside(name, truth.bounds[name], (low, high), kernel)
             if true[1] < low or high < true[0]:
                 ends = f"[{float(low):.17g}, {float(high):.17g}]"
                 wrong.append(f"{name} {ends}, not {float(true[0]):.17g}")
@@ -126,10 +126,10 @@ def _widths(
 ) -> Iterator[float]:
     """Yield the width of every quantity by the best possible; 1 where both are 0."""
     for name, said in answer.items():
-        known = [truth.known[name] for truth in truths if truth and name in truth.known]
-        if len(known) < len(truths):
+        true = [truth.bounds[name] for truth in truths if truth and name in truth.bounds]
+        if len(true) < len(truths):
             continue
-        near = [_beside(name, true, said, kernel) for true in known]
+        near = [_beside(name, true, said, kernel) for true in true]
         least = case.least((min(x[0] for x in near), max(x[1] for x in near)))
         width = said[1] - said[0]
         if least > 0:

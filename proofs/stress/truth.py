@@ -45,7 +45,7 @@ Ranges = dict[str, Range]
 class Truth:
     """Bounds of true values, by name; none of them, and a reason, where there is no value."""
 
-    known: Ranges
+    bounds: Ranges
     reason: str = ""
 
 

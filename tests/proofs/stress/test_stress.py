@@ -56,7 +56,7 @@ def point(phi, **options):
 def test_the_truth_agrees_with_a_scan_of_equation_10(by, given):
     known = [as_mpf(Fraction(x)) for x in given]
     flight, phase = reference.first_impact(*known)
-    found = first_impact(by, Launched(*map(Fraction, given)), FAR).known
+    found = first_impact(by, Launched(*map(Fraction, given)), FAR).bounds
     assert close(found["flight"], flight, mpf(10) ** -40)
     assert mp.fabs(mp.sin((as_mpf(found["phase"][0]) - phase) / 2)) < mpf(10) ** -40
     assert close(found["slope"], reference.slope(*known, flight), mpf(10) ** -15)
@@ -66,7 +66,7 @@ def test_the_truth_agrees_with_a_scan_of_equation_10(by, given):
 def test_the_truth_after_sticking(by):
     leave = reference.separation_phase(mpf("0.2121"), mpf("-0.2"))
     flight, _ = reference.first_impact(mpf("0.2121"), mpf("-0.2"), leave)
-    found = first_impact(by, Launched(ETA, NU, Fraction(5)), FAR).known
+    found = first_impact(by, Launched(ETA, NU, Fraction(5)), FAR).bounds
     assert close(found["flight"], flight, mpf(10) ** -30)
     assert mp.fabs(mp.sin((as_mpf(found["dwell"][0]) - (leave - 5)) / 2)) < mpf(10) ** -45
     assert found["slope"] == (0, 0)
@@ -74,7 +74,7 @@ def test_the_truth_after_sticking(by):
 
 def test_the_truth_with_restitution_solves_14_and_15(by):
     of = Launched(ETA, NU, Fraction("1.11"), Fraction("0.1"), Fraction("-0.5"))
-    found = first_impact(by, of, FAR).known
+    found = first_impact(by, of, FAR).bounds
     state = [as_mpf(x) for x in (of.eta, of.nu, of.epsilon, of.phi, of.gamma)]
     flight = as_mpf(found["flight"][0])
     assert mp.fabs(reference.left_side_14(*state, flight)) < mpf(10) ** -45
@@ -82,7 +82,7 @@ def test_the_truth_with_restitution_solves_14_and_15(by):
     step = Fraction(1, 10**12)
     for name in ("phi", "gamma"):
         moved = replace(of, **{name: getattr(of, name) + step})
-        other = first_impact(by, moved, FAR).known
+        other = first_impact(by, moved, FAR).bounds
         for quantity in ("phase", "velocity"):
             quotient = (other[quantity][0] - found[quantity][0]) / step
             assert abs(found[f"{quantity} by {name}"][0] - quotient) < Fraction(1, 10**7)
@@ -90,9 +90,9 @@ def test_the_truth_with_restitution_solves_14_and_15(by):
 
 def test_the_truth_without_impact(by):
     never = first_impact(by, Launched(ETA, Fraction("0.02"), Fraction(1)), FAR)
-    assert not never.known and never.reason == "the mass stays on the table"
+    assert not never.bounds and never.reason == "the mass stays on the table"
     later = first_impact(by, Launched(ETA, NU, Fraction("1.11")), Fraction(10))
-    assert not later.known and later.reason == "no impact up to the horizon"
+    assert not later.bounds and later.reason == "no impact up to the horizon"
 
 
 @pytest.mark.slow
@@ -101,7 +101,7 @@ def test_each_graze_is_seen_from_both_sides(by):
     for k in range(20):
         eta, nu, phase = graze(by, k)
         beside = [Launched(eta, nu, phase + side * Fraction(1, 10**25)) for side in (-1, 1)]
-        low, high = sorted(first_impact(by, of, FAR).known["flight"][0] for of in beside)
+        low, high = sorted(first_impact(by, of, FAR).bounds["flight"][0] for of in beside)
         assert high - low > Fraction(1, 2)
 
 
@@ -114,7 +114,7 @@ def test_each_graze_is_seen_from_both_sides(by):
 def test_ranges_have_their_turning_points(by, function, ends, expected):
     found = truths(by, function, *map(Fraction, ends))
     for truth, value in zip(found, expected, strict=True):
-        assert value is None or truth.known["value"] == (value, value)
+        assert value is None or truth.bounds["value"] == (value, value)
 
 
 # -- the verdicts ----------------------------------------------------------------------------------
