@@ -1,4 +1,6 @@
-"""The truth about one motion to 100 digits: the paper's (10), (14), (15) typed again, in Arb.
+"""The truth about one motion to 100 digits: the paper's (10), (14), (15) in Arb.
+
+The equations are the project's, which tests compare with others; arithmetic and search are not.
 
 The first impact is found by steps that cannot pass a zero. The mass is a harmonic oscillator of
 amplitude A, so |d^k gap / dt^k| <= M_k = |nu| + eta^k A for k >= 2; where gap = g > 0 and gap' = v,
@@ -12,10 +14,21 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from math import factorial
+from itertools import product
 from typing import Any
 
 from proofs.benchmark.peers import Arithmetic, Range
+from proofs.trusted.equations import (
+    AT_LAUNCH,
+    arrival,
+    clock,
+    closing,
+    gap,
+    launch,
+    launch_acceleration,
+    return_map_derivative,
+    slope,
+)
 
 BITS = 1200  # 100 digits, after what cancels next to a graze or to zero flight time
 _FEW_BITS = 64
@@ -32,7 +45,7 @@ Ranges = dict[str, Range]
 class Truth:
     """Bounds of true values, by name; none of them, and a reason, where there is no value."""
 
-    known: Ranges
+    bounds: Ranges
     reason: str = ""
 
 
@@ -54,85 +67,62 @@ class Launched:
 class Motion:
     """The flight after a launch; from another phase, if one is given."""
 
-    def __init__(self, kernel: Arithmetic, of: Launched, phi: Any = None) -> None:
-        self.kernel, self.of = kernel, of
-        self.side = 1 if of.nu > 0 else -1
-        self.eta, self.nu, self.epsilon = map(kernel.point, (of.eta, of.nu, of.epsilon))
-        self.phi = kernel.point(of.phi) if phi is None else phi
-        self.gamma = kernel.point(of.gamma or 0)
-        height, speed = self._launch(self.phi, self.gamma)
+    def __init__(self, kernel: Arithmetic, given: Launched, phi: Any = None) -> None:
+        self.kernel, self.given = kernel, given
+        self.phi = kernel.point(given.phi) if phi is None else phi
+        eta, nu, self.epsilon = map(kernel.point, (given.eta, given.nu, given.epsilon))
+        self.start = launch(1 if given.nu > 0 else -1, eta, nu, self.phi)
+        if given.gamma is not None:
+            kick = self.epsilon * closing(self.start, kernel.point(given.gamma))
+            self.start = self.start._replace(kick=kick)
+        height, speed = arrival(self.start, AT_LAUNCH)
         self.amplitude = kernel.call("sqrt", height * height + speed * speed)
-
-    def _sincos(self, x: Any) -> tuple[Any, Any]:
-        return self.kernel.call("sin", x), self.kernel.call("cos", x)
-
-    def _launch(self, phi: Any, gamma: Any) -> tuple[Any, Any]:
-        """Return the coefficients of cos(eta t) and sin(eta t) in (14)."""
-        sin, cos = self._sincos(phi)
-        speed = self.nu / self.eta * (1 + self.epsilon) * cos + self.epsilon * gamma
-        return 1 + self.nu * sin, speed
-
-    def after(self, phi: Any, gamma: Any, t: Any) -> tuple[Any, Any]:
-        """Return side times the left side of (14), and the velocity by (15): numbers or series."""
-        (height, speed), (s, c) = self._launch(phi, gamma), self._sincos(self.eta * t)
-        gap = height * c + speed * s - 1 - self.nu * self._sincos(phi + t)[0]
-        return self.side * gap, height * s - speed * c
+        self.table = abs(nu)
 
     def most(self, order: int) -> Any:
         """Return M_order."""
-        return abs(self.nu) + self.eta**order * self.amplitude
+        return self.table + self.start.eta**order * self.amplitude
 
     def gap(self, t: Any, order: int) -> list[Any]:
-        """Return the gap and its derivatives by time up to some order, at least 1."""
-        time = self.kernel.series([t, self.kernel.point(1), *[self.kernel.point(0)] * (order - 1)])
-        gap, _ = self.after(self.phi, self.gamma, time)
-        return [self.kernel.coefficient(gap, k) * factorial(k) for k in range(order + 1)]
-
-    def rates(self, t: Any, k: int) -> tuple[Any, Any]:
-        """Return the derivatives of gap and velocity by phi, gamma or t."""
-        at = [self.phi, self.gamma, t]
-        at[k] = self.kernel.series([at[k], self.kernel.point(1)])
-        gap, velocity = self.after(*at)
-        return self.kernel.coefficient(gap, 1), self.kernel.coefficient(velocity, 1)
+        """Return the gap and its derivatives by time up to some order."""
+        now = clock(self.start.eta, t)
+        return [gap(self.start, now, k) for k in range(order + 1)]
 
     def answers(self, t: Any) -> dict[str, Any]:
-        """Return flight, phase, gamma and f' or DF at an impact, by implicit differentiation."""
-        found = {"flight": t, "phase": self.phi + t}
-        found["velocity"] = self.after(self.phi, self.gamma, t)[1]
-        by_t, push = self.rates(t, 2)
-        for k, name in enumerate(("phi", "gamma")):
-            gap, velocity = self.rates(t, k)
-            found[f"phase by {name}"] = 1 - k - gap / by_t
-            found[f"velocity by {name}"] = velocity - gap / by_t * push
-        if self.of.gamma is None:
-            names = {"flight": "flight", "phase": "phase", "phase by phi": "slope"}
-            return {new: found[old] for old, new in names.items()}
-        return found
+        """Return flight, phase, gamma and f' or DF at an impact."""
+        now, values = clock(self.start.eta, t), {"flight": t, "phase": self.phi + t}
+        if self.given.gamma is None:
+            return values | {"slope": slope(self.start, now)}
+        rows = return_map_derivative(self.start, now, self.epsilon)
+        entries = zip(product(("phase", "velocity"), ("phi", "gamma")), sum(rows, ()), strict=True)
+        values["velocity"] = arrival(self.start, now)[1]
+        return values | {f"{name} by {variable}": entry for (name, variable), entry in entries}
 
 
-def first_impact(kernel: Arithmetic, of: Launched, horizon: Fraction) -> Truth:
+def first_impact(kernel: Arithmetic, given: Launched, horizon: Fraction) -> Truth:
     """Return the truth about the next impact, phases up to 2 pi; raise Unknown where it must."""
     with kernel.precision(BITS):
-        motion = Motion(kernel, of)
+        motion = Motion(kernel, given)
         _, first, second = motion.gap(kernel.point(0), 2)
-        if of.gamma is not None and of.epsilon != 0 and _sign(kernel, first) < 0:
+        rebounds = given.gamma is not None and given.epsilon != 0
+        if rebounds and _sign(kernel, first) < 0:
             raise Unknown("an impossible state")
-        sticks = (of.gamma is None or of.epsilon == 0) and _sign(kernel, second) < 0
+        sticks = not rebounds and _sign(kernel, second) < 0
         if sticks:
-            leave = separation(kernel, of.eta, of.nu)
+            leave = separation(kernel, given.eta, given.nu)
             if leave is None:
                 return Truth({}, "the mass stays on the table")
-            motion = Motion(kernel, Launched(of.eta, of.nu, of.phi), leave)
+            motion = Motion(kernel, Launched(given.eta, given.nu, given.phi), leave)
         time = _first_zero(motion, horizon, leaving=sticks)
         if time is None:
             return Truth({}, "no impact up to the horizon")
-        found = motion.answers(time)
+        values = motion.answers(time)
         if sticks:
-            dwell = leave - kernel.point(of.phi)
+            dwell = leave - kernel.point(given.phi)
             while _sign(kernel, dwell) < 0:  # the next time that the table is there
                 dwell += 2 * kernel.pi()
-            found |= dict.fromkeys(_CONSTANT, kernel.point(0)) | {"dwell": dwell}
-        return Truth({name: kernel.ends(value) for name, value in found.items()})
+            values |= dict.fromkeys(_CONSTANT, kernel.point(0)) | {"dwell": dwell}
+        return Truth({name: kernel.ends(value) for name, value in values.items()})
 
 
 def separation(kernel: Arithmetic, eta: Fraction, nu: Fraction) -> Any:
@@ -174,16 +164,16 @@ def _advanced(motion: Motion, t: Any, horizon: Fraction) -> Any:
     for _ in range(_MOST_STEPS):
         if kernel.ends(t)[0] >= horizon:
             return t
-        gap, rate, second = motion.gap(t, 2)
-        if _sign(kernel, gap) <= 0:
+        height, rate, second = motion.gap(t, 2)
+        if _sign(kernel, height) <= 0:
             return t
         bend = abs(second) + motion.most(3) * t
         near = _sign(kernel, motion.most(2) - bend) > 0
         bend = bend if near else motion.most(2)
-        falls = _sign(kernel, rate) < 0 and _sign(kernel, 4 * bend * gap - rate * rate) < 0
-        if falls and not (near and _sign(kernel, 2 * gap + rate * t) > 0):
+        falls = _sign(kernel, rate) < 0 and _sign(kernel, 4 * bend * height - rate * rate) < 0
+        if falls and not (near and _sign(kernel, 2 * height + rate * t) > 0):
             return t
-        step = (rate + kernel.call("sqrt", rate * rate + 2 * bend * gap)) / bend
+        step = (rate + kernel.call("sqrt", rate * rate + 2 * bend * height)) / bend
         if near and _sign(kernel, step - t) > 0:
             step = t
         t = kernel.middle(t + step * kernel.point(_SHORTER))
@@ -199,7 +189,7 @@ def _start(motion: Motion, leaving: bool) -> Any:
         starts.append(2 * third / motion.most(4))
     if not leaving and _sign(kernel, second) > 0:
         starts.append(3 * second / (2 * motion.most(3)))
-    if not leaving and motion.of.gamma is not None and _sign(kernel, first) > 0:
+    if not leaving and motion.given.gamma is not None and _sign(kernel, first) > 0:
         starts.append(first / motion.most(2))
     if not starts:
         raise Unknown("the launch itself is not decided")
@@ -211,8 +201,8 @@ def _polished(motion: Motion, t: Any) -> Any:
     """Return the zero next to t, by Newton's method, its ends proved by the signs of the gap."""
     kernel = motion.kernel
     for _ in range(14):
-        gap, rate = motion.gap(t, 1)
-        t = kernel.middle(t - gap / rate)
+        height, rate = motion.gap(t, 1)
+        t = kernel.middle(t - height / rate)
     reach = abs(t) * kernel.point(_RELATIVE)
     signs = [_sign(kernel, motion.gap(end, 1)[0]) for end in (t - reach, t + reach)]
     if signs != [1, -1]:
@@ -229,7 +219,7 @@ GRAZES = {
     ("0.35", "-0.5"): "1.16952 13.369, 1.27043 32.017, 2.11154 5.202",
     ("1.4", "-2.3"): "0.38704 2.368, 0.51608 2.109",
 }
-_PLACES = [(*of, *each.split()) for of, some in GRAZES.items() for each in some.split(", ")]
+_PLACES = [(*where, *each.split()) for where, near in GRAZES.items() for each in near.split(", ")]
 _STEPS = 10
 
 
@@ -241,8 +231,10 @@ def graze(kernel: Arithmetic, number: int) -> tuple[Fraction, Fraction, Fraction
         phase, time = map(kernel.point, near)
         for _ in range(_STEPS):
             motion = Motion(kernel, Launched(eta, nu, Fraction(0)), phase)
-            gap, rate, bend = motion.gap(time, 2)
-            phase = kernel.middle(phase - gap / motion.rates(time, 0)[0])
+            height, rate, bend = motion.gap(time, 2)
+            pull = clock(motion.start.eta, time).mass_sin / motion.start.eta
+            along = rate - pull * launch_acceleration(motion.start)  # by the phase: see `slope`
+            phase = kernel.middle(phase - height / along)
             time = kernel.middle(time - rate / bend)
         return eta, nu, _decimal(kernel, phase)
 
