@@ -17,6 +17,7 @@ from intervals import Undecided
 from proofs.methods.arcs import follow, thin
 from proofs.methods.derivation import Derivation
 from proofs.methods.lemmas import krawczyk, newton, require_zero, written
+from proofs.motion.witness import touching_once
 from proofs.search.derivations import Steps
 from proofs.search.evidence import FAILED, Evidence
 from proofs.search.request import Request, proving
@@ -30,9 +31,10 @@ from proofs.trusted.paper.beyond.grazing import (
     ETA,
     FLIP,
     FOLD,
+    TIME,
     GrazingCurve,
+    gap_along,
     ratio,
-    require_one_touch,
     touch,
 )
 from proofs.trusted.paper.beyond.meetings import Meeting, sign
@@ -126,6 +128,7 @@ class Curves:
             for other in (FOLD, FLIP)
             if first.beyond[other] != second.beyond[other]
         }
+        times: dict[Piece, list[Fraction]] = {}
 
         def accept(piece: Piece) -> None:
             low, high = piece.box[ETA]
@@ -133,7 +136,8 @@ class Curves:
                 low - _NEAR < point[ETA] < high + _NEAR for point in crossings.values()
             ):
                 raise Undecided("a long piece next to another curve")
-            require_one_touch(n, epsilon, side, piece)
+            gap_of = gap_along(n, ratio(epsilon), side, piece)
+            times[piece] = touching_once(gap_of, 1 if epsilon else 2, piece.hull(ETA)[TIME], n)
 
         start = newton(formula, run[0].guess, axis=ETA)[0]
         traced = follow(formula, ETA, start, run[-1].eta, step=_STEP, most=_PIECES, accept=accept)
@@ -145,6 +149,7 @@ class Curves:
             epsilon=str(epsilon),
             pieces=[each.witness for each in traced],
             points=points,
+            times=[texts(times[piece]) for piece in pieces],
         )
         self.traced.append((name, curve))
         for other, point in crossings.items():
