@@ -51,7 +51,7 @@ def separation(system: System, bits: int, horizon: Fraction = HORIZON) -> dict[s
         raise Undecided("the mass sticks nowhere: there is no separation phase")
     phase, f = separation_phase(system, bits), PlasticMap(system.place, horizon, SEPARATES)
     try:
-        f.impact(enclosed((phase,), bits_for(phase)))
+        f.window(enclosed((phase,), bits_for(phase)))
     except NoFirstZero as failure:
         raise NoImpact(str(failure)) from None
     except Unproved as failure:
