@@ -11,6 +11,7 @@ from types import MappingProxyType
 from intervals import Undecided
 from proofs.report import graph
 from proofs.report.atlases import atlases
+from proofs.report.checker import checker
 from proofs.report.figures import figures as all_figures
 from proofs.report.figures.figure import Certificates, Documents, Figure
 from proofs.report.findings import findings
@@ -33,6 +34,7 @@ def built(
     folder: Path,
     tell: Tell = lambda stage: None,
     only_text: bool = False,
+    pyodide: Path | None = None,
     *,
     derived: Documents = MappingProxyType({}),
     each: Each = map,
@@ -40,8 +42,8 @@ def built(
     """Return the files of the report, by their names in the folder; nothing is proved again.
 
     only_text: without the page and the figures of matplotlib, for which packages may be missing.
-    derived: what came from certificates of the folder just now, by name. each: what draws the
-    figures.
+    pyodide: where it is, for a page with a checker in it, too. derived: what came from
+    certificates of the folder just now, by name. each: what draws the figures.
     Raises Malformed, Rejected or OSError where the folder has no ledger, or one that its
     certificates do not prove.
     """
@@ -64,7 +66,13 @@ def built(
     files |= {f"figures/{name}.svg": text for name, text in drawn.items()}
     tell("index.html")
     figures = [figure for figure in figures if figure.name in drawn]
-    files["index.html"] = page(claims, figures, drawn, atlases(folder))
+    maps = atlases(folder)
+    files["index.html"] = page(claims, figures, drawn, atlases=maps)
+    if pyodide is not None:
+        certificates = dict.fromkeys(claim.file for claim in claims.claims)
+        files["checker.html"] = page(
+            claims, figures, drawn, checker(pyodide, folder, certificates), maps
+        )
     return files
 
 

@@ -14,6 +14,7 @@ from markupsafe import Markup, escape
 
 from proofs.report import graph
 from proofs.report.atlases import Atlas
+from proofs.report.checker import Checker
 from proofs.report.dependencies import RESTS
 from proofs.report.figures.figure import Figure
 from proofs.report.findings import Finding, Findings, Statement, Step
@@ -39,6 +40,7 @@ from proofs.trusted.numbers import floor_text
 from proofs.trusted.verdicts import Verdict, told
 
 POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; script-src 'unsafe-inline'"
+_POLICY_OF_CHECKER = f"{POLICY} 'unsafe-eval' blob:; worker-src blob:"
 _TEMPLATES = Path(__file__).parent / "templates"
 _TITLE = re.compile("<title>.*</title>\\n")  # of a drawing; in the page it stands beside
 _LONGEST = 1200  # characters of a formula that is set; longer ones are shown as they are read
@@ -48,20 +50,26 @@ def page(
     findings: Findings,
     figures: Sequence[Figure],
     drawn: Mapping[str, str],
+    checker: Checker | None = None,
     atlases: Sequence[Atlas] = (),
 ) -> str:
-    """Return the page. drawn: the figures as SVG, by name. atlases: those beside it."""
+    """Return the page. drawn: the figures as SVG, by name. checker: what one in the page needs.
+
+    atlases: those beside it.
+    """
     return rendered(
         "page.html",
         view=View(findings, figures),
         drawn={name: _TITLE.sub("", text, count=1) for name, text in drawn.items()},
         RESTS=RESTS,
         title=PAPER_TITLE,
+        policy=_POLICY_OF_CHECKER if checker else POLICY,
         summary=summary(findings),
         sections=list(findings.sections()),
         graph=Markup(graph.svg(findings)),
         falling=graph.falling(findings),
         figures=figures,
+        checker=checker,
         atlases=atlases,
     )
 
@@ -75,9 +83,9 @@ def rendered(template: str, **values: Any) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    values = {"policy": POLICY, **values}
     environment.globals.update(
         values,
-        policy=POLICY,
         text_of=_text_of,
         MARKS=graph.MARKS,
         MEANINGS=MEANINGS,
