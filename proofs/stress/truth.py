@@ -1,6 +1,6 @@
-"""The truth about one motion to 100 digits: the paper's (10), (14), (15) in Arb.
+"""The truth about one motion to 100 digits: the paper's (10), (14), (15) typed again, in Arb.
 
-The equations are the project's, which tests compare with others; arithmetic and search are not.
+Nothing is shared with what is tried, so that a slip in an equation shows as well.
 
 The first impact is found by steps that cannot pass a zero. The mass is a harmonic oscillator of
 amplitude A, so |d^k gap / dt^k| <= M_k = |nu| + eta^k A for k >= 2; where gap = g > 0 and gap' = v,
@@ -14,21 +14,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from itertools import product
+from math import factorial
 from typing import Any
 
 from proofs.benchmark.peers import Arithmetic, Range
-from proofs.trusted.equations import (
-    AT_LAUNCH,
-    arrival,
-    clock,
-    closing,
-    gap,
-    launch,
-    launch_acceleration,
-    return_map_derivative,
-    slope,
-)
 
 BITS = 1200  # 100 digits, after what cancels next to a graze or to zero flight time
 _FEW_BITS = 64
@@ -69,34 +58,58 @@ class Motion:
 
     def __init__(self, kernel: Arithmetic, given: Launched, phi: Any = None) -> None:
         self.kernel, self.given = kernel, given
+        self.side = 1 if given.nu > 0 else -1
+        self.eta, self.nu, self.epsilon = map(kernel.point, (given.eta, given.nu, given.epsilon))
         self.phi = kernel.point(given.phi) if phi is None else phi
-        eta, nu, self.epsilon = map(kernel.point, (given.eta, given.nu, given.epsilon))
-        self.start = launch(1 if given.nu > 0 else -1, eta, nu, self.phi)
-        if given.gamma is not None:
-            kick = self.epsilon * closing(self.start, kernel.point(given.gamma))
-            self.start = self.start._replace(kick=kick)
-        height, speed = arrival(self.start, AT_LAUNCH)
+        self.gamma = kernel.point(given.gamma or 0)
+        height, speed = self._launch(self.phi, self.gamma)
         self.amplitude = kernel.call("sqrt", height * height + speed * speed)
-        self.table = abs(nu)
+
+    def _sincos(self, x: Any) -> tuple[Any, Any]:
+        return self.kernel.call("sin", x), self.kernel.call("cos", x)
+
+    def _launch(self, phi: Any, gamma: Any) -> tuple[Any, Any]:
+        """Return the coefficients of cos(eta t) and sin(eta t) in (14)."""
+        sin, cos = self._sincos(phi)
+        speed = self.nu / self.eta * (1 + self.epsilon) * cos + self.epsilon * gamma
+        return 1 + self.nu * sin, speed
+
+    def after(self, phi: Any, gamma: Any, t: Any) -> tuple[Any, Any]:
+        """Return side times the left side of (14), and the velocity by (15): numbers or series."""
+        (height, speed), (s, c) = self._launch(phi, gamma), self._sincos(self.eta * t)
+        gap = height * c + speed * s - 1 - self.nu * self._sincos(phi + t)[0]
+        return self.side * gap, height * s - speed * c
 
     def most(self, order: int) -> Any:
         """Return M_order."""
-        return self.table + self.start.eta**order * self.amplitude
+        return abs(self.nu) + self.eta**order * self.amplitude
 
     def gap(self, t: Any, order: int) -> list[Any]:
-        """Return the gap and its derivatives by time up to some order."""
-        now = clock(self.start.eta, t)
-        return [gap(self.start, now, k) for k in range(order + 1)]
+        """Return the gap and its derivatives by time up to some order, at least 1."""
+        time = self.kernel.series([t, self.kernel.point(1), *[self.kernel.point(0)] * (order - 1)])
+        gap, _ = self.after(self.phi, self.gamma, time)
+        return [self.kernel.coefficient(gap, k) * factorial(k) for k in range(order + 1)]
+
+    def rates(self, t: Any, k: int) -> tuple[Any, Any]:
+        """Return the derivatives of gap and velocity by phi, gamma or t."""
+        at = [self.phi, self.gamma, t]
+        at[k] = self.kernel.series([at[k], self.kernel.point(1)])
+        gap, velocity = self.after(*at)
+        return self.kernel.coefficient(gap, 1), self.kernel.coefficient(velocity, 1)
 
     def answers(self, t: Any) -> dict[str, Any]:
-        """Return flight, phase, gamma and f' or DF at an impact."""
-        now, values = clock(self.start.eta, t), {"flight": t, "phase": self.phi + t}
+        """Return flight, phase, gamma and f' or DF at an impact, by implicit differentiation."""
+        values = {"flight": t, "phase": self.phi + t}
+        values["velocity"] = self.after(self.phi, self.gamma, t)[1]
+        by_t, push = self.rates(t, 2)
+        for k, name in enumerate(("phi", "gamma")):
+            gap, velocity = self.rates(t, k)
+            values[f"phase by {name}"] = 1 - k - gap / by_t
+            values[f"velocity by {name}"] = velocity - gap / by_t * push
         if self.given.gamma is None:
-            return values | {"slope": slope(self.start, now)}
-        rows = return_map_derivative(self.start, now, self.epsilon)
-        entries = zip(product(("phase", "velocity"), ("phi", "gamma")), sum(rows, ()), strict=True)
-        values["velocity"] = arrival(self.start, now)[1]
-        return values | {f"{name} by {variable}": entry for (name, variable), entry in entries}
+            names = {"flight": "flight", "phase": "phase", "phase by phi": "slope"}
+            return {new: values[old] for old, new in names.items()}
+        return values
 
 
 def first_impact(kernel: Arithmetic, given: Launched, horizon: Fraction) -> Truth:
@@ -232,9 +245,7 @@ def graze(kernel: Arithmetic, number: int) -> tuple[Fraction, Fraction, Fraction
         for _ in range(_STEPS):
             motion = Motion(kernel, Launched(eta, nu, Fraction(0)), phase)
             height, rate, bend = motion.gap(time, 2)
-            pull = clock(motion.start.eta, time).mass_sin / motion.start.eta
-            along = rate - pull * launch_acceleration(motion.start)  # by the phase: see `slope`
-            phase = kernel.middle(phase - height / along)
+            phase = kernel.middle(phase - height / motion.rates(time, 0)[0])
             time = kernel.middle(time - rate / bend)
         return eta, nu, _decimal(kernel, phase)
 
