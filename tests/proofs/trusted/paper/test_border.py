@@ -42,9 +42,9 @@ def test_a_border_needs_all_in_order():
     assert Border(motion, rests, passes)
     arc = replace(rests.arc, at=replace(rests.arc.at, nu=(Fraction(-1, 4),) * 2))
     for change in (
-        (rests, motion, passes),
-        (rests, rests, passes),
         (motion, motion, passes),
+        (replace(motion, boxes=motion.boxes * 2), rests, passes),
+        (motion, replace(rests, boxes=rests.boxes * 2), passes),
         (motion, replace(rests, epsilons=(Fraction("0.3"),) * 2), passes),
         (motion, replace(rests, epsilons=(Fraction("0.36"), rests.largest)), passes),
         (motion, replace(rests, epsilons=(passes.epsilon,) * 2), passes),
