@@ -205,8 +205,8 @@ def widen(ends, by):
 
 
 EDITS = [
-    ((*FLIGHT, "times"), lambda times: [times[0], *times[-2:]]),
-    ((*FLIGHT, "times"), lambda times: times[-2:]),
+    ((*FLIGHT, "phase"), lambda ends: [ends[1], add("1/1000")(ends[1])]),
+    ((*FLIGHT, "phase"), lambda ends: widen(ends, "1/2")),
     ((*CHATTER, "box"), lambda box: [widen(ends, "1/2") for ends in box]),
     ((*CHATTER, "cells"), lambda cells: [cells[0], *cells[-1:]]),
     ((*CHATTER, "cells"), lambda cells: [*cells, cells[-1]]),
