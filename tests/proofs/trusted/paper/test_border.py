@@ -15,7 +15,6 @@ from proofs.trusted.parameters import PAPER
 from tests.oracles.judge import oracle
 from tests.proofs.trusted.paper.steps import apply, evidence, known_of
 
-pytestmark = pytest.mark.slow
 RESTS, PASSES = "superstable-motion-2", "superstable-motion-3"
 
 
@@ -23,6 +22,7 @@ def known():
     return known_of("persistence")
 
 
+@pytest.mark.slow
 def test_what_is_said():
     decision = find("G15").decide(PAPER, [x for _, x in evidence("persistence").proofs["G15"]])
     assert find("G15").own and decision.verdict.value == "VERIFIED"
@@ -76,6 +76,7 @@ def thrown(**changes):
     return {**witness, "separation": "arc", "cells": [cell], **changes}
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("change", "reason"),
     [
@@ -92,6 +93,7 @@ def test_what_flies_beyond_phi_s_has_landed_on_the_arc(change, reason):
         apply("superstable-motion", thrown(), {"arc": replace(arc, **change(arc))})
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("change", "reason"),
     [

@@ -202,6 +202,7 @@ def test_an_orbit_of_period_three_goes_on_in_its_own_order():
     assert inside.bracketed and "with one point" not in inside.sentence
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("cells", "reason"),
     [
@@ -411,6 +412,7 @@ GRAPH_LIES = {
 }
 
 
+@pytest.mark.every
 @pytest.mark.parametrize("lie", GRAPH_LIES)
 def test_a_forged_graph_is_refused(small, graphs, lie):
     steps, name, _ = small
