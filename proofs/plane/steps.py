@@ -61,8 +61,8 @@ class Steps:
         except Unproved:
             if not halvings:
                 raise Undecided(_NOT_SEEN) from None
-        one, two = (self.windows(part, latest, halvings - 1) for part in halves(phases))
-        return one | two
+        left, right = (self.windows(part, latest, halvings - 1) for part in halves(phases))
+        return left | right
 
     def certificate(self) -> str:
         """Return the certificate's text."""

@@ -112,10 +112,10 @@ def _cells(
         word: tuple[tuple[int, int], ...] = ()
         for each in reversed(node.way()):
             after, word = word, ((each.piece, each.turn), *word)
-            found = exact.get(word) or _exact(system, pieces[each.piece], each, exact[after])
-            if found is None:
+            ends = exact.get(word) or _exact(system, pieces[each.piece], each, exact[after])
+            if ends is None:
                 return None
-            exact[word] = found
+            exact[word] = ends
     inside = [hull[0] < low and high < hull[1] for low, high in exact.values()]
     cells = sorted(ends for word, ends in exact.items() if word)
     apart = all(a[1] + _SPARE * (a[1] - a[0] + b[1] - b[0]) < b[0] for a, b in pairwise(cells))

@@ -112,18 +112,18 @@ class _Run:
 
     def suspects(self, claim: str, finest: int = 64, stride: int = 1) -> Iterator[Fraction]:
         """Yield phases that refute a claim in floating point, of a `grid` on its domains."""
-        of = self.of
-        domains = (of.gap,) if claim == "H4" else (of.left, of.right)
+        statement = self.of
+        domains = (statement.gap,) if claim == "H4" else (statement.left, statement.right)
         for phase in (phase for domain in domains for phase in grid(domain, finest, stride)):
             candidate = next_impact(self.prover.system, float(phase))
             if candidate is None:
                 continue
             image, slope = Fraction(candidate.phase), Fraction(candidate.slope)
             try:
-                guess = Impact(of.place, phase, (slope, slope), Phase(image, image))
+                guess = Impact(statement.place, phase, (slope, slope), Phase(image, image))
             except Unproved:  # next to phase 0
                 continue
-            if _DECIDE[claim](of, [guess]).verdict is Verdict.REFUTED:
+            if _DECIDE[claim](statement, [guess]).verdict is Verdict.REFUTED:
                 yield phase
 
     def correction(self) -> tuple[str, StayingSet] | None:
@@ -152,7 +152,7 @@ class _Run:
 
 
 def prove(
-    of: Parameters,
+    statement: Parameters,
     claims: Sequence[str] = GROUPS["horseshoe"],
     *,
     digits: int = 30,
@@ -165,22 +165,26 @@ def prove(
     H11; a repair where one of H1-H6 asked for is refuted. If floating point expects a repair, the
     steps are made on the hulls of the given and the corrected sets at once.
     """
-    run = _Run(Prover(System(of.eta, of.nu), digits, horizon), of, tell)
+    run = _Run(Prover(System(statement.eta, statement.nu), digits, horizon), statement, tell)
     needs_slopes, needs_gap = _NEEDS_SLOPES.intersection(claims), _NEEDS_GAP.intersection(claims)
-    sets = (of, *islice(nearest_sets(of), 1)) if needs_slopes or needs_gap else (of,)
+    sets = (
+        (statement, *islice(nearest_sets(statement), 1))
+        if needs_slopes or needs_gap
+        else (statement,)
+    )
     if needs_slopes and not run.prove_slopes(*sets):
-        run.prove_slopes(of)
+        run.prove_slopes(statement)
     escapes = needs_gap and next(run.suspects("H4", finest=8, stride=6), None) is None
     if escapes and not run.prove_gap(*sets):
-        run.prove_gap(of)
+        run.prove_gap(statement)
     evidence = Evidence(run.prover.steps)
     for claim in claims:
         if claim in _DECIDE:
             evidence.proofs[claim] = run.evidence(claim)
             parts = ["slopes"] * (claim in needs_slopes) + ["gap"] * (claim in needs_gap)
             evidence.notes[claim] = "; ".join(run.failures[x] for x in parts if x in run.failures)
-    if "H11" in claims and max(*of.moran_ratios, *of.reciprocals) < 1:
-        ratios = dict.fromkeys((of.moran_ratios, of.reciprocals))
+    if "H11" in claims and max(*statement.moran_ratios, *statement.reciprocals) < 1:
+        ratios = dict.fromkeys((statement.moran_ratios, statement.reciprocals))
         with suppress(*FAILED):
             evidence.proofs["H11"] = [run.prover.root(each) for each in ratios]
     refuted = [
