@@ -7,7 +7,6 @@ if __name__ == "__main__":
 
     launch("proofs.benchmark.__main__")
 
-import shutil
 import sys
 from argparse import Namespace
 from collections.abc import Iterator, Sequence
@@ -18,7 +17,6 @@ from proofs.benchmark import page
 from proofs.benchmark.measure import Tell
 from proofs.benchmark.page import Run, Section
 from proofs.shell.cli import Parser, heard, progress, share
-from proofs.shell.entry import USAGE_ERROR
 from proofs.shell.files import check_folder, check_targets, refusing, write_target
 from proofs.shell.screen import say
 
@@ -28,7 +26,6 @@ examples:
   python -m proofs benchmark
   python -m proofs benchmark --full --out reports/benchmark
   python -m proofs benchmark precision --out diagrams --json precision.json
-  python -m proofs benchmark precision --codac-python ~/codac/bin/python
 
 all: horseshoe, operations, arrays, ledger and precision.
 horseshoe: the main job beside bare imports and a script in python-flint; its bounds of f' beside
@@ -37,8 +34,7 @@ precision: time against error: bounds of f' by natural, mean-value and Taylor fo
 monotonicity, flight times beside algorithm A.1 and an ODE solver. Peers do the same work; fitted
 orders; diagrams with --out.
 operations: single ones of Interval and of short IntervalArrays beside python-flint and mpmath.iv.
-arrays: operations of 200,000 intervals beside the packages crival and pyintval, where they are
-installed, and widths.
+arrays: operations of 200,000 intervals by IntervalArray and TightArray, and widths.
 ledger: all claims, made anew and with nothing changed; 30 digits of two dimensions.
 
 With --out the report is written as benchmark.md, benchmark.json and, where matplotlib is installed,
@@ -64,7 +60,7 @@ def measure(options: Namespace, tell: Tell) -> Iterator[Section]:
     if subject == "horseshoe":
         yield precision.of_main_job(mode, tell)
     if subject in ("all", "precision"):
-        yield from precision.measure(mode, options.codac_python, tell)
+        yield from precision.measure(mode, tell)
 
 
 def _parser() -> Parser:
@@ -78,8 +74,6 @@ def _parser() -> Parser:
         modes.add_argument(f"--{mode}", dest="mode", action="store_const", const=mode, help=text)
     parser.set_defaults(mode="quick")
     share(parser, "--out", "--json", "--quiet")
-    python = "the interpreter that has codac (default: this one)"
-    add("--codac-python", metavar="PATH", default=sys.executable, help=python)
     return parser
 
 
@@ -88,9 +82,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = _parser()
     options = parser.parse_args(arguments)
     check_targets(parser, options.json)
-    if shutil.which(options.codac_python) is None:
-        say(f"{parser.prog}: no such interpreter: {options.codac_python}", sys.stderr)
-        return USAGE_ERROR
     if options.out is not None:
         check_folder(parser, options.out)
     began = perf_counter()

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from intervals import DomainError, Undecided
 from proofs.benchmark.measure import Row, in_turn, ratio_row, seconds_of
-from proofs.benchmark.peers import CODAC, FLINT, IV, PEERS
+from proofs.benchmark.peers import FLINT, IV, PEERS
 from proofs.report.figures.style import Axes, style, svg_of
 
 if TYPE_CHECKING:
@@ -24,7 +24,6 @@ _OURS = ("#08519c", "o"), ("#6baed6", "<"), ("#4292c6", ">")  # colour, mark
 _OTHERS = {  # by the end of their names
     FLINT: ("#e6550d", "s"),
     IV: ("#31a354", "^"),
-    CODAC: ("#de2d26", "D"),
     "algorithm A.1": ("#8c6d31", "v"),
     "RK45": ("#756bb1", "P"),
     "DOP853": ("#c51b8a", "X"),
@@ -241,10 +240,10 @@ def beside(curves: Sequence[Curve]) -> list[Row]:
     rows, first = [], dict[tuple[str, str], Curve]()
     for theirs in curves:
         own = first.setdefault((theirs.work, theirs.way.rpartition(", ")[0]), theirs)
-        known = {point.size: point.seconds for point in own.measured}
-        common = [point for point in theirs.measured if point.size in known]
+        ours = {point.size: point.seconds for point in own.measured}
+        common = [point for point in theirs.measured if point.size in ours]
         if own is not theirs and theirs.way.endswith(PEERS) and common:
             size, _, seconds, _ = common[-1]
             name = f"{own.work}: {theirs.way} / {own.way}, {own.unit} {size:g}"
-            rows.append(ratio_row(name, seconds, known[size]))
+            rows.append(ratio_row(name, seconds, ours[size]))
     return rows

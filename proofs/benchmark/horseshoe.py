@@ -104,9 +104,9 @@ def limits(mode: str, tell: Tell) -> Section:
         for name, some in seconds.items()
     ]
     rows.append(Row("main job, first run, everything compiled [s]", f"{first[1].seconds:.3g}"))
-    plastic, whole, bare, *flint = seconds.values()
+    plastic, main_job, bare, *flint = seconds.values()
     rows.append(ratio_row("plastic claims / import numpy, mpmath", plastic, bare, 2.5))
-    rows.append(ratio_row("main job / import numpy, mpmath", whole, bare, 2))
+    rows.append(ratio_row("main job / import numpy, mpmath", main_job, bare, 2))
     if flint:
         rows.append(ratio_row(f"plastic claims / {script}", plastic, flint[0], 1.5))
     else:

@@ -1,11 +1,10 @@
-"""Single operations and arrays, beside python-flint, mpmath.iv and other packages of arrays.
+"""Single operations beside python-flint and mpmath.iv; arrays, and how wide their results are.
 
 The least bounds are those of `Interval` at 53 bits. A package that is absent has no row.
 """
 
 from __future__ import annotations
 
-import importlib
 import operator
 from collections.abc import Callable, Iterator
 from itertools import chain
@@ -17,7 +16,7 @@ import numpy as np
 from intervals import Interval, IntervalArray, TightArray
 from proofs.benchmark.measure import Row, Tell, in_turn, ratio_row
 from proofs.benchmark.page import Section
-from proofs.benchmark.peers import FLINT, IV, OURS, arithmetic, installed, libraries
+from proofs.benchmark.peers import FLINT, IV, OURS, arithmetic, libraries
 
 ARRAY = "IntervalArray"
 _ROUNDS = {"smallest": 1, "quick": 9, "full": 31}
@@ -45,14 +44,14 @@ def operands(library: str, bits: int, length: int) -> dict[str, Any]:
         upper[name] = [x + width * random.random() for x in lower[name]]
     if library == ARRAY:
         return {name: IntervalArray.from_floats(lower[name], upper[name]) for name in lower}
-    of, functions = arithmetic(library, bits), dict[str, Any]()
+    number, functions = arithmetic(library, bits).number, dict[str, Any]()
     if library == FLINT:
         import flint
 
         flint.ctx.prec = bits
     elif library == IV:
-        functions = {name: getattr(of.point(1).ctx, name) for name in ("sqrt", "sin", "exp", "log")}
-    return functions | {name: list(map(of.number, lower[name], upper[name])) for name in lower}
+        functions = {x: getattr(number(1, 1).ctx, x) for x in ("sqrt", "sin", "exp", "log")}
+    return functions | {name: list(map(number, lower[name], upper[name])) for name in lower}
 
 
 class _Pair(NamedTuple):
@@ -120,65 +119,29 @@ _ARRAY_ROUNDS = {"smallest": 1, "quick": 5, "full": 15}
 _SAMPLE = 300
 _SIGNS = {"+": operator.add, "*": operator.mul, "/": operator.truediv}
 NAMES = (*_SIGNS, "sqrt", "exp", "log", "sin", "tanh")
+KINDS = (IntervalArray, TightArray)
 
 
-class Package(NamedTuple):
-    """Arrays of a package: made from two ends, with functions by name, and their ends."""
-
-    make: Callable[[Any, Any], Any]
-    function: Callable[[str], Callable[[Any], Any]]
-    ends: Callable[[Any], Any] = lambda x: (x.inf, x.sup)
-
-
-def packages() -> dict[str, Package]:
-    """Return those that are here, ours first."""
-    ours = {
-        kind.__name__: Package(kind.from_floats, _method) for kind in (IntervalArray, TightArray)
-    }
-    return ours | dict(_others())
-
-
-def _others() -> Iterator[tuple[str, Package]]:
-    if installed("ival"):
-        crival = importlib.import_module("ival")
-        yield "crival", Package(crival.Interval, lambda name: getattr(crival, name))
-    if installed("pyintval"):  # one by one
-        single = importlib.import_module("pyintval")
-        yield (
-            "pyintval",
-            Package(
-                np.frompyfunc(single.Interval, 2, 1),
-                lambda name: np.frompyfunc(getattr(single, name), 1, 1),
-                lambda x: np.array([(y.lo, y.hi) for y in x], dtype=float).T,
-            ),
-        )
-
-
-def _method(name: str) -> Callable[[Any], Any]:
-    return lambda x: getattr(x, name)()
-
-
-def computed(package: Package, name: str, lower: Any, upper: Any) -> Callable[[], Any]:
+def computed(kind: type[IntervalArray], name: str, lower: Any, upper: Any) -> Callable[[], Any]:
     """Return what does an operation on the intervals, with themselves if it has two operands."""
-    x = package.make(lower, upper)
+    x = kind.from_floats(lower, upper)
     if sign := _SIGNS.get(name):
         return lambda: sign(x, x)
-    function = package.function(name)
-    return lambda: function(x)
+    function: Callable[[], Any] = getattr(x, name)
+    return function
 
 
-def excess(package: Package, name: str, lower: Any, upper: Any) -> Any:
+def excess(done: IntervalArray, name: str, lower: Any, upper: Any) -> Any:
     """Return how many ulps each result has beyond the least bounds, on its worse side."""
-    low, high = package.ends(computed(package, name, lower, upper)())
     ends = (map(Interval.from_float, x.tolist()) for x in (lower, upper))
     single = (a.hull(b) for a, b in zip(*ends, strict=True))
     least = [_SIGNS[name](x, x) if name in _SIGNS else getattr(x, name)() for x in single]
     best = np.array([[float(x.inf), float(x.sup)] for x in least]).T
-    return np.maximum(*np.abs(np.array((low, high)) - best) / np.spacing(np.abs(best)))
+    return np.maximum(*np.abs(np.array((done.inf, done.sup)) - best) / np.spacing(np.abs(best)))
 
 
 def measure_arrays(mode: str, tell: Tell) -> Section:
-    """Measure all, each beside the arrays of today's default."""
+    """Measure both kinds of arrays, each beside today's default."""
     tell("arrays")
     rng, count = np.random.default_rng(1), _LENGTHS[mode]
     lower = rng.uniform(0.05, 3, count)
@@ -188,18 +151,17 @@ def measure_arrays(mode: str, tell: Tell) -> Section:
     )
     about = (
         f"{count} intervals, one call: how many times as long as an IntervalArray takes, and by "
-        "how many ulps bounds are beyond the least there are, at most and on average. Where a "
-        "package has 0 and an IntervalArray has not, the package is tighter."
+        "how many ulps bounds are beyond the least there are, at most and on average."
     )
-    return Section("Arrays beside other packages", about, list(rows))
+    return Section("Arrays", about, list(rows))
 
 
 def _array_rows(name: str, lower: Any, upper: Any, rounds: int) -> Iterator[Row]:
-    every = packages()
-    times = in_turn([computed(p, name, lower, upper) for p in every.values()], rounds)
-    for (package, p), samples in zip(every.items(), times, strict=True):
-        row = ratio_row(f"{name}: {package} / IntervalArray", samples, times[0])
-        beyond = excess(p, name, lower[:_SAMPLE], upper[:_SAMPLE])
+    times = in_turn([computed(kind, name, lower, upper) for kind in KINDS], rounds)
+    for kind, samples in zip(KINDS, times, strict=True):
+        row = ratio_row(f"{name}: {kind.__name__} / IntervalArray", samples, times[0])
+        first = lower[:_SAMPLE], upper[:_SAMPLE]
+        beyond = excess(computed(kind, name, *first)(), name, *first)
         row.measured += f"; {beyond.max():.0f} ulps, {beyond.mean():.2f} on average"
         row.samples["ulps"] = beyond.tolist()
         yield row

@@ -1,7 +1,6 @@
 """The numbers of each library under one interface, so that all do literally the same work.
 
 Nothing here is evidence for a claim. Peers are imported where they are used: they may be absent.
-codac changes the rounding mode of its process, and has one of its own (`codac_server`).
 """
 
 from __future__ import annotations
@@ -18,8 +17,8 @@ from typing import Any
 from intervals import Interval, Jet
 from proofs.trusted.equations import registered_sincos
 
-OURS, FLINT, IV, CODAC = "Interval", "python-flint", "mpmath.iv", "codac"
-PEERS = (FLINT, IV, CODAC)
+OURS, FLINT, IV = "Interval", "python-flint", "mpmath.iv"
+PEERS = (FLINT, IV)
 Range = tuple[Fraction, Fraction]
 End = Fraction | float | int
 
@@ -58,7 +57,7 @@ class Arithmetic:
 @cache
 def arithmetic(library: str, bits: int) -> Arithmetic:
     """Return the numbers of a library; ImportError if it is absent."""
-    return {OURS: _ours, FLINT: _flint, IV: _iv, CODAC: _codac}[library](bits)
+    return {OURS: _ours, FLINT: _flint, IV: _iv}[library](bits)
 
 
 def installed(module: str) -> bool:
@@ -108,7 +107,7 @@ def _flint(bits: int) -> Arithmetic:
         positive=arb(0).__lt__,  # 0 < x
         call=lambda function, x: getattr(x, function)(),
         series=lambda coefficients: series(coefficients, len(coefficients)),
-        coefficient=lambda of, k: of[k],
+        coefficient=lambda taylor, k: taylor[k],
         precision=flint.ctx.workprec,
         greater=operator.gt,
     )
@@ -141,26 +140,6 @@ def _iv(bits: int) -> Arithmetic:
 def _yielding(operation: Callable[[Any, Any], Any]) -> Callable[[Any, Any], Any]:
     """Let a jet on the right do the operation, where mpmath raises NotImplementedError."""
     return lambda x, y: NotImplemented if isinstance(y, Jet) else operation(x, y)
-
-
-def _codac(bits: int) -> Arithmetic:
-    """Return codac's, in binary64, for a process of its own."""
-    import codac  # type: ignore[import-not-found, unused-ignore]
-
-    codac.Interval.sincos = lambda x: (codac.sin(x), codac.cos(x))
-
-    def exact(x: Fraction) -> Any:
-        return codac.Interval(float(x.numerator)) / float(x.denominator)
-
-    return Arithmetic(
-        CODAC,
-        53,
-        number=lambda low, high: exact(Fraction(low)) | exact(Fraction(high)),
-        ends=lambda x: (Fraction(x.lb()), Fraction(x.ub())),
-        middle=lambda x: codac.Interval(x.mid()),
-        positive=lambda x: bool(x.lb() > 0),
-        call=lambda function, x: getattr(codac, function)(x),
-    )
 
 
 def _dyadic(mantissa: Any, exponent: Any) -> Fraction:

@@ -2,7 +2,7 @@
 
 Each curve is one way to do one work at growing cost; orders are least-squares fits. Ours and
 those of peers run in turn, and ratios are of samples taken side by side. An enclosure that
-excludes the truth is reported as such; python-flint, codac and scipy are optional.
+excludes the truth is reported as such; python-flint and scipy are optional.
 """
 
 from __future__ import annotations
@@ -12,11 +12,10 @@ from functools import partial
 from typing import NamedTuple
 
 from proofs.benchmark import tasks
-from proofs.benchmark.codac_server import Bounds, codac
 from proofs.benchmark.curves import Budget, Curve, Diagram, beside, sweep
 from proofs.benchmark.measure import Row, Tell, version_of
 from proofs.benchmark.page import Section
-from proofs.benchmark.peers import CODAC, FLINT, IV, installed, libraries
+from proofs.benchmark.peers import FLINT, IV, installed, libraries
 
 
 class Plan(NamedTuple):
@@ -46,14 +45,13 @@ def section(about: str, works: Sequence[Sequence[Curve]], *diagrams: Diagram) ->
     return Section(diagrams[0].title, about, rows, diagrams)
 
 
-def measure(mode: str, python: str, tell: Tell) -> Iterator[Section]:
-    """Measure everything; codac in a process of the interpreter `python`."""
+def measure(mode: str, tell: Tell) -> Iterator[Section]:
+    """Measure everything."""
     plan = PLANS[mode]
-    with codac(python) as server:
-        yield _peers(server[0] if server else "")
-        for digits in (None, 30, 50, 100, 300) if plan.orders else (None, 30):
-            tell(f"slope bounds, {digits or 'binary64'}")
-            yield _slopes(plan, digits, server[1] if server else None)
+    yield _peers()
+    for digits in (None, 30, 50, 100, 300) if plan.orders else (None, 30):
+        tell(f"slope bounds, {digits or 'binary64'}")
+        yield _slopes(plan, digits)
     yield of_main_job(mode, tell)
     tell("flights")
     yield _flights(plan)
@@ -63,9 +61,9 @@ def of_main_job(mode: str, tell: Tell) -> Section:
     """Measure the bounds of f' that the main job rests on."""
     plan = PLANS[mode]
     tell("slope bounds by monotonicity")
-    of = partial(Curve, "f' on I0 and I1, f'' > 0", unit="digits", sizes=_DIGITS)
-    ways = [of(name, run=partial(tasks.monotone, name)) for name in libraries()]
-    ways.append(of("the main job's, witness kept", run=tasks.main_job_slopes))
+    curve = partial(Curve, "f' on I0 and I1, f'' > 0", unit="digits", sizes=_DIGITS)
+    ways = [curve(name, run=partial(tasks.monotone, name)) for name in libraries()]
+    ways.append(curve("the main job's, witness kept", run=tasks.main_job_slopes))
     title = "Slope bounds by monotonicity, where f'' > 0"
     across = "digits: -log10 of what the bounds of f' miss its extremes by"
     return section(
@@ -76,19 +74,19 @@ def of_main_job(mode: str, tell: Tell) -> Section:
     )
 
 
-def _slopes(plan: Plan, digits: int | None, by_codac: Bounds | None) -> Section:
+def _slopes(plan: Plan, digits: int | None) -> Section:
     """Measure the bounds of f' by all forms, in binary64 or to some digits; to many by some."""
     where = f"{digits} digits" if digits else "binary64"
     floor = 10.0**-digits if digits else 1e-14
     sizes = [2.0**k for k in range(0, 10 if digits else 13, plan.stride)]
-    of = partial(Curve, f"f' on I0 and I1, {where}", unit="boxes", sizes=sizes, against="error")
+    curve = partial(Curve, f"f' on I0 and I1, {where}", unit="boxes", sizes=sizes, against="error")
     works = []
     for order in plan.orders if digits and digits > 30 else range(len(_FORMS)):
-        runs = {name: partial(tasks.by_library, name, order, digits) for name in libraries()}
-        if by_codac and not digits:
-            runs[CODAC] = partial(tasks.by_bounds, by_codac, order)
-        form = partial(of, floor=floor, least=order + 0.8)  # the excess: boxes^-(order + 1)
-        ways = [form(f"{_FORMS[order]}, {name}", run=run) for name, run in runs.items()]
+        form = partial(curve, floor=floor, least=order + 0.8)  # the excess: boxes^-(order + 1)
+        ways = [
+            form(f"{_FORMS[order]}, {name}", run=partial(tasks.by_library, name, order, digits))
+            for name in libraries()
+        ]
         works.append(sweep(ways, plan.many))
     name, title = where.replace(" ", "-"), f"Slope bounds {'at' if digits else 'in'} {where}"
     across = "error: by how much the bounds of f' miss its extremes [1]"
@@ -102,12 +100,12 @@ def _slopes(plan: Plan, digits: int | None, by_codac: Bounds | None) -> Section:
 
 
 def _flights(plan: Plan) -> Section:
-    of = partial(Curve, "6 flights, I0 and I1", sizes=_DIGITS, unit="digits")
+    curve = partial(Curve, "6 flights, I0 and I1", sizes=_DIGITS, unit="digits")
     proved = [
-        of(f"the grid given, {name}", run=partial(tasks.flights, name)) for name in libraries()
+        curve(f"the grid given, {name}", run=partial(tasks.flights, name)) for name in libraries()
     ]
-    proved.append(of("certified map (search.image)", run=tasks.images))
-    guess = partial(of, proved=False, against="")
+    proved.append(curve("certified map (search.image)", run=tasks.images))
+    guess = partial(curve, proved=False, against="")
     steps, tolerances = [10.0**-k for k in range(1, 7)], [10.0**-k for k in range(3, 14, 2)]
     march = guess("algorithm A.1", unit="step", sizes=steps, run=tasks.marches, least=0.8)
     march.against = "error"
@@ -127,16 +125,14 @@ def _flights(plan: Plan) -> Section:
     )
 
 
-def _peers(codac_version: str) -> Section:
+def _peers() -> Section:
     """Say of each peer what it is, or that it is absent."""
     peers = {
         FLINT: "balls of any precision, in C (FLINT, Arb)",
         "mpmath": f"as {IV}, in Python; not proved sound: its exp can exclude the truth",
-        CODAC: "binary64 intervals, in C++, in a process of its own",
         "scipy": "solve_ivp with an event at the impact, a simulation",
     }
-    versions = {name: version_of(name) for name in peers} | {CODAC: codac_version or "absent"}
-    rows = [Row(name, f"{versions[name]}: {what}") for name, what in peers.items()]
+    rows = [Row(name, f"{version_of(name)}: {what}") for name, what in peers.items()]
     about = (
         "Ours is measured beside these, on the same work, as far as they are installed. All but "
         "scipy claim to enclose the truth, and each enclosure is compared with it."

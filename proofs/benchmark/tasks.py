@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from functools import cache
 from itertools import pairwise
@@ -99,16 +99,11 @@ def _about(phase: float) -> float:
     return impact.time
 
 
-def by_bounds(of: Callable[[Work, int], Range], order: int, boxes: float) -> float:
-    """Do the work by what bounds f' on one domain."""
-    return loss([of(work, order) for work in works(int(boxes))])
-
-
 def by_library(library: str, order: int, digits: float | None, boxes: float) -> float:
     """Do the work box by box, to so many digits or in binary64, signs to 53 bits."""
-    of = arithmetic(library, bits_for(digits) if digits else _SIGN_BITS)
+    kernel = arithmetic(library, bits_for(digits) if digits else _SIGN_BITS)
     signs = arithmetic(library, _SIGN_BITS)
-    return loss([bounds(of, signs, work, order) for work in works(int(boxes))])
+    return loss([bounds(kernel, signs, work, order) for work in works(int(boxes))])
 
 
 def monotone(library: str, digits: float) -> float:
@@ -155,8 +150,8 @@ def images(digits: float) -> float:
 
 def flights(library: str, digits: float) -> float:
     """Exclude impacts on given grids at 53 bits, then enclose time and f' to so many digits."""
-    of, signs = arithmetic(library, bits_for(digits)), arithmetic(library, _SIGN_BITS)
-    return width([first_impact(of, signs, phase, *_given(phase)) for phase in PHASES])
+    kernel, signs = arithmetic(library, bits_for(digits)), arithmetic(library, _SIGN_BITS)
+    return width([first_impact(kernel, signs, phase, *_given(phase)) for phase in PHASES])
 
 
 @cache

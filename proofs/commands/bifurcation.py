@@ -71,12 +71,12 @@ def main(arguments: list[str] | None = None) -> int:
     if options.out is not None:
         check_folder(parser, options.out)
     try:
-        of = Map.read(*options.equations).with_numbers(
+        map_ = Map.read(*options.equations).with_numbers(
             **{name: f"({value})" for name, value in options.set.items()}
         )
-        _ = of.jacobian, of.jacobian_at_rest
-        forms = {kind: NormalForm(of, kind) for kind in _kinds(of, options)}
-        names = _names(of, options)
+        _ = map_.jacobian, map_.jacobian_at_rest
+        forms = {kind: NormalForm(map_, kind) for kind in _kinds(map_, options)}
+        names = _names(map_, options)
     except ValueError as error:
         parser.error(str(error))
     with answering(parser, options):
@@ -109,26 +109,26 @@ def _numbers(text: str) -> dict[str, Fraction]:
     return numbers
 
 
-def _kinds(of: Map, options: Namespace) -> list[str]:
-    possible = KINDS if len(of.state) == 2 else KINDS[:2]
+def _kinds(map_: Map, options: Namespace) -> list[str]:
+    possible = KINDS if len(map_.state) == 2 else KINDS[:2]
     return options.kind or [*possible]
 
 
-def _names(of: Map, options: Namespace) -> tuple[str, ...]:
+def _names(map_: Map, options: Namespace) -> tuple[str, ...]:
     """Return what is solved for: the variables, then a parameter; with --near its names."""
     if options.near is not None:
         if len(options.kind or ()) != 1:
             raise ValueError("--near is about one bifurcation: --kind KIND")
-        if {*options.near} != {*of.state, *of.parameters} or len(of.parameters) != 1:
-            wanted = ", ".join((*of.state, "one parameter"))
+        if {*options.near} != {*map_.state, *map_.parameters} or len(map_.parameters) != 1:
+            wanted = ", ".join((*map_.state, "one parameter"))
             raise ValueError(f"--near has numbers for {wanted}, --set for all other parameters")
-        return (*of.state, *of.parameters)
+        return (*map_.state, *map_.parameters)
     if options.solve:
         names = tuple(spelled(each.strip()) for each in options.solve.split(","))
     else:
-        names = (*of.state, *of.parameters[:1])
-    if len(set(names)) != len(of.state) + 1 or not {*names} <= {*of.state, *of.parameters}:
-        raise ValueError(f"{len(of.state) + 1} names of variables and parameters are solved for")
+        names = (*map_.state, *map_.parameters[:1])
+    if len(set(names)) != len(map_.state) + 1 or not {*names} <= {*map_.state, *map_.parameters}:
+        raise ValueError(f"{len(map_.state) + 1} names of variables and parameters are solved for")
     return names
 
 
@@ -137,10 +137,10 @@ def _answer(
 ) -> int:
     """Derive, check and print; return the exit status."""
     file, missing = Lemmas(), list[str]()
-    of = next(iter(forms.values())).map
-    answer = _map_form(of)
+    map_ = next(iter(forms.values())).map
+    answer = _map_form(map_)
     try:
-        prove_jacobian(file, of)
+        prove_jacobian(file, map_)
     except Undecided as failure:
         say(f"{parser.prog}: undecided: the Jacobian: {failure}", sys.stderr)
         return 1
@@ -185,8 +185,8 @@ def _candidates(file: Lemmas, form: NormalForm, names: tuple[str, ...]) -> Answe
     forms = [_closed_form(each, parameter, len(form.map.state) == 2) for each in candidates]
     pairs = list(zip(forms, candidates, strict=True))
     return {
-        "closed": [each for each, of in pairs if of.kept],
-        "dropped": [each for each, of in pairs if not of.kept],
+        "closed": [each for each, candidate in pairs if candidate.kept],
+        "dropped": [each for each, candidate in pairs if not candidate.kept],
     }
 
 
@@ -208,28 +208,28 @@ def _formula(expression: Any) -> dict[str, str]:
     return {"formula": derive.write(simple), "latex": sympy.latex(simple)}
 
 
-def _map_form(of: Map) -> Answer:
+def _map_form(map_: Map) -> Answer:
     """Return the map, its Jacobian and what holds at fixed points."""
-    matrix = of.jacobian
+    matrix = map_.jacobian
     return {
-        "variables": list(of.state),
-        "parameters": list(of.parameters),
-        "equations": [_formula(derive.read(each)) for each in of.equations],
-        "fixed_points": [_formula(derive.read(each)) for each in of.fixed],
+        "variables": list(map_.state),
+        "parameters": list(map_.parameters),
+        "equations": [_formula(derive.read(each)) for each in map_.equations],
+        "fixed_points": [_formula(derive.read(each)) for each in map_.fixed],
         "jacobian": [[_formula(entry) for entry in row] for row in matrix.tolist()],
-        "trace": _formula(of.jacobian_at_rest.trace()),
-        "determinant": _formula(of.jacobian_at_rest.det()),
+        "trace": _formula(map_.jacobian_at_rest.trace()),
+        "determinant": _formula(map_.jacobian_at_rest.det()),
         "bifurcations": {},
     }
 
 
 def _closed_form(candidate: Closed, parameter: str, plane: bool) -> Answer:
     return {
-        "kind": candidate.found.kind,
-        "why": candidate.found.why,
-        "where": list(candidate.found.where),
+        "kind": candidate.what.kind,
+        "why": candidate.what.why,
+        "where": list(candidate.what.where),
         "values": {name: _formula(value) for name, value in candidate.values.items()},
-        "meaning": dict(meaning(candidate.found.kind, parameter, plane, candidate.signs.get)),
+        "meaning": dict(meaning(candidate.what.kind, parameter, plane, candidate.signs.get)),
     }
 
 

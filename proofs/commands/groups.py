@@ -28,10 +28,10 @@ def _seconds(text: str) -> Fraction:
     return value
 
 
-def _dossier(of: Parameters, options: Namespace) -> str:
+def _dossier(statement: Parameters, options: Namespace) -> str:
     from proofs.commands.dossier import dossier
 
-    return dossier(of, options)
+    return dossier(statement, options)
 
 
 _ROWS = (

@@ -62,22 +62,22 @@ def main(arguments: list[str] | None = None) -> int:
     parser = _parser()
     options = parser.parse_args(arguments)
     try:
-        of = _parameters(options)
+        statement = _parameters(options)
     except ValueError as error:
         parser.error(str(error))
     with answering(parser, options, options.csv):
-        return _answer(parser, of, options)
+        return _answer(parser, statement, options)
 
 
-def _answer(parser: Parser, of: Parameters, options: Namespace) -> int:
+def _answer(parser: Parser, statement: Parameters, options: Namespace) -> int:
     """Print or write the periodic points; return the exit status."""
     from proofs.search.periodic import horseshoe, of_words, own_horseshoe
 
     began = perf_counter()
     try:
         options.tell("the horseshoe")
-        proved = horseshoe(of) if options.left else own_horseshoe(of)
-        of = proved.of
+        proved = horseshoe(statement) if options.left else own_horseshoe(statement)
+        statement = proved.of
         points = of_words(proved, options.word or options.period, options.digits, options.tell)
     except (Undecided, IntervalError, OverflowError) as failure:
         print(f"{parser.prog}: UNDECIDED: {failure}", file=sys.stderr)
@@ -86,8 +86,8 @@ def _answer(parser: Parser, of: Parameters, options: Namespace) -> int:
     options.tell("")
     rows = [_row(point, options.digits) for point in points]
     write_target(parser, options.csv, lambda: _csv(rows))
-    answer: Answer = {"parameters": _machine_form(of, options.digits), "orbits": rows}
-    give(parser, options, answer, lambda _: _text(of, rows, seconds))
+    answer: Answer = {"parameters": _machine_form(statement, options.digits), "orbits": rows}
+    give(parser, options, answer, lambda _: _text(statement, rows, seconds))
     return 0
 
 
@@ -150,12 +150,12 @@ def _row(point: PeriodicPoint, places: int) -> Answer:
     return {"word": point.word, "period": point.period, **ends}
 
 
-def _machine_form(of: Parameters, places: int) -> Answer:
+def _machine_form(statement: Parameters, places: int) -> Answer:
     """Return the JSON object of what was asked."""
-    sets = {"left": of.left, "right": of.right, "interval": of.interval}
+    sets = {"left": statement.left, "right": statement.right, "interval": statement.interval}
     return {
-        "eta": show(of.eta),
-        "nu": show(of.nu),
+        "eta": show(statement.eta),
+        "nu": show(statement.nu),
         **{name: [show(x) for x in ends] for name, ends in sets.items()},
         "digits": places,
     }
@@ -172,14 +172,14 @@ def _csv(rows: list[Answer]) -> str:
     return target.getvalue()
 
 
-def _text(of: Parameters, rows: list[Answer], seconds: float) -> str:
+def _text(statement: Parameters, rows: list[Answer], seconds: float) -> str:
     said = []
     for row in rows[:_SHOWN]:
         said.append(f"{row['word']}  period {row['period']}")
         said += [*lines("phase", row["phase"], 10), *lines("multiplier", row["multiplier"], 10)]
     if len(rows) > _SHOWN:
         said.append(f"... and {len(rows) - _SHOWN} more: --csv and --json have all of them")
-    sets = f"in I0 = {show_range(of.left)}, I1 = {show_range(of.right)}"
+    sets = f"in I0 = {show_range(statement.left)}, I1 = {show_range(statement.right)}"
     orbits = sum(Fraction(1, row["period"]) for row in rows)
     said.append(
         f"\n{len(rows)} words of length {len(rows[0]['word'])}: one periodic phase each, proved "

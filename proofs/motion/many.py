@@ -70,5 +70,5 @@ def next_impacts(
         going = going[~hit]
     now = clock(eta, hits)
     with np.errstate(all="ignore"):
-        found = hits, phases + hits, slope(start, now), np.maximum(-gap(start, now, 1), 0.0)
-    return Impacts(*(np.reshape(x, given[0].shape) for x in found))
+        columns = hits, phases + hits, slope(start, now), np.maximum(-gap(start, now, 1), 0.0)
+    return Impacts(*(np.reshape(x, given[0].shape) for x in columns))

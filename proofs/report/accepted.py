@@ -47,10 +47,10 @@ def recorded(file: str, source: str, claims: Mapping[str, list[str]], record: Pa
 
 def digest_of_theory() -> str:
     """Return the digest of all files of the theory."""
-    found = sha256()
+    theory = sha256()
     for path in sorted(THEORY.glob("*.v")):
-        found.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
-    return found.hexdigest()
+        theory.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
+    return theory.hexdigest()
 
 
 def _entries(record: Path) -> dict[str, Any]:

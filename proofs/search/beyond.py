@@ -43,9 +43,9 @@ def prove(request: Request, effort: int = EFFORT, seconds: float | Fraction = ma
     return search_each(evidence, request.claims, _SEARCHES, request.tell, run, within=within)
 
 
-def too_fast(of: Parameters, evidence: Evidence, searches: Iterable[str]) -> bool:
+def too_fast(statement: Parameters, evidence: Evidence, searches: Iterable[str]) -> bool:
     """Whether eta is too large for any search, which is noted at each claim that asks for one."""
-    if of.eta <= FASTEST:
+    if statement.eta <= FASTEST:
         return False
     note = f"for eta > {FASTEST} flights are not followed"
     evidence.notes |= dict.fromkeys(evidence.proofs.keys() & set(searches), note)

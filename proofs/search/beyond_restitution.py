@@ -51,16 +51,16 @@ def prove(request: Request, effort: int = EFFORT, seconds: float | Fraction = ma
 
 def _chaos(prover: ReboundProver, budget: Budget) -> Proof:
     """Prove a horseshoe on rectangles that are found (rule horseshoe)."""
-    system, of = prover.system, prover.of
-    epsilon = of.epsilon or Fraction(0)
-    at = Place.restituting(of.eta, of.nu, epsilon)
+    system, statement = prover.system, prover.of
+    epsilon = statement.epsilon or Fraction(0)
+    at = Place.restituting(statement.eta, statement.nu, epsilon)
     seen = symbols(pieces(system, budget.grid, budget.farthest, budget.check))
     failure = "no two rectangles are seen that F maps across both"
     for (sets, velocities), _ in zip(
         _rectangles(system, epsilon, seen), range(budget.tries), strict=False
     ):
         budget.check()
-        prover.of = replace(of, velocities=velocities)
+        prover.of = replace(statement, velocities=velocities)
         try:
             name = prover.crossing(at, sets)
         except Unproved as error:
@@ -68,7 +68,7 @@ def _chaos(prover: ReboundProver, budget: Budget) -> Proof:
         else:
             return [(name, prover.known[name])]
         finally:
-            prover.of = of
+            prover.of = statement
     raise Undecided(failure)
 
 

@@ -29,32 +29,34 @@ _TRIES = 12  # of sets that are found
 _DIGITS = 14
 
 
-def horseshoe(of: Parameters) -> ImpactMap:
+def horseshoe(statement: Parameters) -> ImpactMap:
     """Prove that I0 and I1 make a full horseshoe; Undecided if not, with sets that do."""
     try:
-        return _full_shift(of, of.left, of.right)
+        return _full_shift(statement, statement.left, statement.right)
     except FAILED as failure:
-        conclusions = [conclusion for _, conclusion in prove(of, ("H5",)).proofs["H5"]]
-        beside = next((f"; it is one on {x.sets}" for x in horseshoes(Found(of, conclusions))), "")
+        conclusions = [conclusion for _, conclusion in prove(statement, ("H5",)).proofs["H5"]]
+        beside = next(
+            (f"; it is one on {x.sets}" for x in horseshoes(Found(statement, conclusions))), ""
+        )
         raise Undecided(f"no horseshoe is proved: {failure}{beside}") from None
 
 
-def own_horseshoe(of: Parameters) -> ImpactMap:
+def own_horseshoe(statement: Parameters) -> ImpactMap:
     """Prove a full shift on two sets that are found, f increasing or decreasing on each."""
-    for left, right in islice(pairs(pieces(System(of.eta, of.nu))), _TRIES):
+    for left, right in islice(pairs(pieces(System(statement.eta, statement.nu))), _TRIES):
         with suppress(*FAILED):
-            return _full_shift(of, left, right)
-    raise Undecided(f"no two sets are found at {of.place} with both images across both")
+            return _full_shift(statement, left, right)
+    raise Undecided(f"no two sets are found at {statement.place} with both images across both")
 
 
-def _full_shift(of: Parameters, left: Range, right: Range) -> ImpactMap:
+def _full_shift(statement: Parameters, left: Range, right: Range) -> ImpactMap:
     """Prove that f maps two sets over each other, and return it there.
 
     By the rule `staying-set` f is monotone and C^1 on both, |f'| > 1. Here both images must be
     intervals of phases as well, that contain both sets: so the turns that f(phi) = phi + t leaves
     out are the same on all of a set, those that take phi + t at the left end to its f.
     """
-    prover = Prover(System(of.eta, of.nu), _DIGITS, HORIZON)
+    prover = Prover(System(statement.eta, statement.nu), _DIGITS, HORIZON)
     steps = [prover.slopes(list(domain)) for domain in (left, right)]
     shift = prover.stays([left, right], list(zip(steps, (left, right), strict=True)))[1]
     arcs = [image_arc(part) for _, part in steps]
@@ -70,11 +72,13 @@ def _full_shift(of: Parameters, left: Range, right: Range) -> ImpactMap:
         if not (counted.contains(count) and counted.wid < 1):
             raise ArithmeticError("an impact is at another phase than it was proved to be")
         turns.append(count)
-    sets = replace(of, left=left, right=right, interval=(left[0], right[1]))
+    sets = replace(statement, left=left, right=right, interval=(left[0], right[1]))
     return ImpactMap(sets, shift.expansion, windows, (turns[0], turns[1]))
 
 
-def of_words(of: ImpactMap, asked: str | int, places: int, tell: Tell) -> list[PeriodicPoint]:
+def of_words(
+    horseshoe_map: ImpactMap, asked: str | int, places: int, tell: Tell
+) -> list[PeriodicPoint]:
     """Return the points of a word and its rotations, or of all words of a length."""
     words = Words.rotations(asked) if isinstance(asked, str) else Words.of_length(asked)
-    return periodic_points(of, words, places, tell)
+    return periodic_points(horseshoe_map, words, places, tell)

@@ -195,19 +195,23 @@ def prove(request: Request) -> Evidence:
 
 def _staying(run: _Run) -> Proof:
     """H13: s_0, and the sets that stay in I and in an interval around it."""
-    of, proof = run.of, list[tuple[str, Conclusion]]()
-    if max(of.moran_ratios) < 1:
-        proof.append(run.prover.root(of.moran_ratios))
+    statement, proof = run.of, list[tuple[str, Conclusion]]()
+    if max(statement.moran_ratios) < 1:
+        proof.append(run.prover.root(statement.moran_ratios))
     run.tell("a horseshoe around I, and the orbits of the ends of I")
-    around = prove_staying(of, run.prover)
+    around = prove_staying(statement, run.prover)
     proof += around
     if around:
-        staying = invariant_set(of.interval, Found(of, [each for _, each in around]))
+        staying = invariant_set(statement.interval, Found(statement, [each for _, each in around]))
         base = staying.base
         full = base.interval, base.cells, FULL
         proof += run.attempt(partial(run.repeller, *full))
         if staying.shift.factors == "000":
-            inner = Phases(*of.interval), (Phases(*of.left), Phases(*of.right)), WITHOUT_000
+            inner = (
+                Phases(*statement.interval),
+                (Phases(*statement.left), Phases(*statement.right)),
+                WITHOUT_000,
+            )
             proof += run.attempt(partial(run.repeller, *inner))
     return proof
 

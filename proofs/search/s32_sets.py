@@ -31,18 +31,18 @@ _TRIES = 6
 _FOLLOWED = 10
 
 
-def prove_staying(of: Parameters, prover: Prover) -> Proof:
+def prove_staying(statement: Parameters, prover: Prover) -> Proof:
     """Prove a horseshoe around I, and the orbits of the ends of I; nothing where that fails."""
-    around = (x for x in nearest_sets(of) if within(of.interval, x.interval))
+    around = (x for x in nearest_sets(statement) if within(statement.interval, x.interval))
     for sets in islice(around, _TRIES):
         with suppress(*FAILED), prover.undone():
-            return _staying_in(sets, of, prover)
+            return _staying_in(sets, statement, prover)
     return []
 
 
-def _staying_in(sets: Parameters, of: Parameters, prover: Prover) -> Proof:
+def _staying_in(sets: Parameters, statement: Parameters, prover: Prover) -> Proof:
     """Prove it on candidate sets; Undecided or Unproved where that fails."""
-    starts = [end for end in of.interval if end not in sets.interval]
+    starts = [end for end in statement.interval if end not in sets.interval]
     extra = [point for start in starts for point in _nearby(sets, start)]
     slopes: dict[str, SlopeRange] = {}
     for domain in (sets.left, sets.right):
@@ -83,11 +83,14 @@ def prove(request: Request) -> Evidence:
         proof = prove_staying(request.of, prover)
         evidence.proofs |= dict.fromkeys(_INVARIANT, proof) | {"H10": proof[:1]}
     request.tell("roots for the linear set")
-    root, of = cache(prover.root), request.of
-    for claim, pairs in (("H12", [of.reciprocals]), ("H14", [of.reciprocals, of.moran_ratios])):
+    root, statement = cache(prover.root), request.of
+    for claim, pairs in (
+        ("H12", [statement.reciprocals]),
+        ("H14", [statement.reciprocals, statement.moran_ratios]),
+    ):
         if request.asks(claim):
             try:
-                sets = [LinearSet(ratios, of.interval) for ratios in dict.fromkeys(pairs)]
+                sets = [LinearSet(ratios, statement.interval) for ratios in dict.fromkeys(pairs)]
                 evidence.proofs[claim] = [root(each.ratios) for each in sets]
             except FAILED as failure:
                 evidence.notes[claim] = str(failure)

@@ -84,20 +84,20 @@ def stays(at: Place, velocities: Range, sets: Sets) -> bool:
     return all(image is not None and low < image[1] < high for image in images)
 
 
-def nearest_rectangles(of: Parameters, images: Images) -> Iterator[Sets]:
+def nearest_rectangles(statement: Parameters, images: Images) -> Iterator[Sets]:
     """Yield phases of rectangles that seem to be mapped across both, nearest first."""
-    for ends in moved_ends((*of.left, *of.right)):
+    for ends in moved_ends((*statement.left, *statement.right)):
         if overshoot(ends, images) > 0:
             yield (ends[0], ends[1]), (ends[2], ends[3])
 
 
-def widened(of: Parameters, sets: Sets, corners: Sequence[Images]) -> Iterator[Sets]:
+def widened(statement: Parameters, sets: Sets, corners: Sequence[Images]) -> Iterator[Sets]:
     """Yield the sets with ends moved outward, by up to two units of the last printed place.
 
     Those first whose edges seem to be mapped beyond them by most at all the corners.
     """
     ends = (*sets[0], *sets[1])
-    unit = Fraction(1, 10 ** places((*of.left, *of.right)))
+    unit = Fraction(1, 10 ** places((*statement.left, *statement.right)))
     choices = []
     for steps in product(range(_MOST_UNITS + 1), repeat=4):
         moves = (-steps[0], steps[1], -steps[2], steps[3])
@@ -109,20 +109,20 @@ def widened(of: Parameters, sets: Sets, corners: Sequence[Images]) -> Iterator[S
             yield (moved[0], moved[1]), (moved[2], moved[3])
 
 
-def narrowed(of: Parameters, images: Images) -> Range | None:
+def narrowed(statement: Parameters, images: Images) -> Range | None:
     """Return candidates x for a right end of V2: its edge goes beyond V1, and V1's beyond it.
 
     Both ends of the range of such x, found by bisection; None if there is none.
     """
-    beyond, outer = images(of.left[1]), images(of.right[1])
-    if beyond is None or outer is None or outer[0] <= of.left[1]:
+    beyond, outer = images(statement.left[1]), images(statement.right[1])
+    if beyond is None or outer is None or outer[0] <= statement.left[1]:
         return None
-    low, high = of.right
+    low, high = statement.right
     for _ in range(_HALVINGS):
         middle = (low + high) / 2
         reach = images(middle)
         if reach is None:
             return None
-        low, high = (low, middle) if reach[0] > of.left[1] else (middle, high)
-    top = min(Fraction(beyond[0]), of.right[1])
+        low, high = (low, middle) if reach[0] > statement.left[1] else (middle, high)
+    top = min(Fraction(beyond[0]), statement.right[1])
     return (high, top) if high < top else None

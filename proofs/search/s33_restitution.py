@@ -64,9 +64,9 @@ def _at_exact_numbers(
     prover: ReboundProver, at: Place, claims: Sequence[str], tell: Callable[[str], None]
 ) -> tuple[dict[str, list[str]], dict[str, str]]:
     """Return the names of steps for N1, N2 and N3, and why there are no more."""
-    of = prover.of
-    images, sets = image_phases(at, prover.velocities), (of.left, of.right)
-    nearest = next(nearest_rectangles(of, images), None)
+    statement = prover.of
+    images, sets = image_phases(at, prover.velocities), (statement.left, statement.right)
+    nearest = next(nearest_rectangles(statement, images), None)
     cuts = sorted({end for pair in (sets, nearest or sets) for ends in pair for end in ends})
     tell("impacts on V1 and V2")
     named: dict[str, list[str]] = {claim: [] for claim in claims}
@@ -120,7 +120,7 @@ def _ranges(prover: ReboundProver, exact: Place, nearest: Sets) -> list[str]:
     epsilon = 0 if that is as near as the printed place. The rectangles are the first widened ones
     with which it succeeds.
     """
-    of = prover.of
+    statement = prover.of
     eta, nu, epsilon = (low for low, _ in exact.sides)
     half, unit = _half_unit(epsilon), _half_unit(nu) / 50
     etas = eta - _half_unit(eta), eta + _half_unit(eta)
@@ -130,7 +130,7 @@ def _ranges(prover: ReboundProver, exact: Place, nearest: Sets) -> list[str]:
         for x, y in product(etas, epsilons)
     ]
     box = Place(etas, (nu - unit, nu + unit), epsilons)
-    for sets in islice(widened(of, nearest, corners), _ATTEMPTS):
+    for sets in islice(widened(statement, nearest, corners), _ATTEMPTS):
         with suppress(Unproved):
             parts = [prover.crossing(box, sets)]
             parts += prover.slabs(box, sets, "nu", 2 * unit)

@@ -45,9 +45,9 @@ _ROOM = 40  # bits beyond those of a result
 class ReboundProver(Prover):
     """Adds steps about impacts with restitution to those of the plastic map."""
 
-    def __init__(self, of: Parameters, digits: int) -> None:
-        super().__init__(System(of.eta, of.nu), digits, HORIZON)
-        self.of = self.context.parameters = of
+    def __init__(self, statement: Parameters, digits: int) -> None:
+        super().__init__(System(statement.eta, statement.nu), digits, HORIZON)
+        self.of = self.context.parameters = statement
         self._names = dict[str, str]()  # of steps, some of which may have been taken back
 
     @property

@@ -56,11 +56,11 @@ def prove(request: Request) -> Evidence:
     """Prove what the claims asked for rest on, as far as it goes."""
     prover = request.prover()
     evidence = Evidence(prover.steps, {claim: [] for claim in request.claims})
-    return search_each(evidence, request.claims, _SEARCHES, request.tell, _Whole(prover))
+    return search_each(evidence, request.claims, _SEARCHES, request.tell, _Shared(prover))
 
 
 @dataclass
-class _Whole:
+class _Shared:
     """What several claims rest on, proved once."""
 
     prover: Prover
@@ -203,7 +203,7 @@ def _cycle(laps: Laps, branches: Sequence[Branch]) -> list[Fraction]:
 # -- square roots ----------------------------------------------------------------------------------
 
 
-def prove_roots(shared: _Whole) -> Proof:
+def prove_roots(shared: _Shared) -> Proof:
     """Prove grazes narrowly, and the pieces between them."""
     roots = prove_grazes(shared.prover)
     with suppress(*FAILED):
@@ -253,12 +253,12 @@ def _graze(prover: Prover, phase: Fraction, time: Fraction) -> tuple[Fraction, F
     return phase, time
 
 
-_SEARCHES: Mapping[str, tuple[str, Callable[[_Whole], Proof]]] = MappingProxyType(
+_SEARCHES: Mapping[str, tuple[str, Callable[[_Shared], Proof]]] = MappingProxyType(
     {
-        "G17": ("where f jumps, and what its pieces lead to", lambda whole: [whole.range]),
+        "G17": ("where f jumps, and what its pieces lead to", lambda shared: [shared.range]),
         "G18": (
             "where f expands, and periodic orbits",
-            lambda whole: [whole.range, prove_expansion(whole.laps)],
+            lambda shared: [shared.range, prove_expansion(shared.laps)],
         ),
         "H18": ("square roots", prove_roots),
     }

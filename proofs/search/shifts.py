@@ -145,16 +145,16 @@ def pairs(seen: Sequence[Piece]) -> Iterator[tuple[Range, Range]]:
         yield from ((left, right) for left, right in with_spare(family))
 
 
-def own_sets(of: Parameters) -> Parameters | None:
+def own_sets(statement: Parameters) -> Parameters | None:
     """Return the statement about I0 and I1 found at its oscillator, bounds of |f'| rounded outward.
 
     Rather those that the flights of each set are proved for in one piece, as for the dimension.
     None where no horseshoe is seen.
     """
-    system = System(of.eta, of.nu)
+    system = System(statement.eta, statement.nu)
     for grid in (_GRID, _FINE):
         near = (
-            _statement(of, system, sets)
+            _statement(statement, system, sets)
             for sets in islice(pairs(pieces(system, grid)), _MOST_PAIRS)
         )
         statements = [each for each in near if each is not None]
@@ -166,7 +166,9 @@ def own_sets(of: Parameters) -> Parameters | None:
     return None
 
 
-def _statement(of: Parameters, system: System, sets: tuple[Range, Range]) -> Parameters | None:
+def _statement(
+    statement: Parameters, system: System, sets: tuple[Range, Range]
+) -> Parameters | None:
     """Return the statement about sets; None unless f seems to be monotone on each and to map both
     over I, their hull, and all between them past it.
     """
@@ -185,7 +187,7 @@ def _statement(of: Parameters, system: System, sets: tuple[Range, Range]) -> Par
     if any(each is not None and low <= each.phase <= high for each in between):
         return None
     return replace(
-        of,
+        statement,
         left=sets[0],
         right=sets[1],
         interval=(sets[0][0], sets[1][1]),

@@ -109,9 +109,9 @@ class Prover(Derivation):
                 raise failure
             return None
 
-        known = cover([phases], decide, halves, limit=_MOST_PARTS)
+        decided = cover([phases], decide, halves, limit=_MOST_PARTS)
         try:
-            return [phases[0], *(part[1] for part, _ in known)]
+            return [phases[0], *(part[1] for part, _ in decided)]
         except PartsExhausted:
             raise Undecided(f"{_MOST_PARTS} parts of {show_range(phases)} do not suffice") from None
 

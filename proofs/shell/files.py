@@ -99,8 +99,10 @@ def check_folder(parser: Parser, folder: Path) -> None:
     """Leave with one line if nothing can be written to the folder, before any work is done."""
     with refusing(parser, folder), writing(folder):
         trial = folder / f".trial.{os.getpid()}.part"
-        trial.touch()
-        trial.unlink()
+        try:
+            trial.touch()
+        finally:  # an interrupt leaves nothing behind
+            trial.unlink(missing_ok=True)
 
 
 def check_targets(parser: Parser, *targets: str | None) -> None:

@@ -45,11 +45,11 @@ def stress(
 ) -> Run:
     """Try about `count` cases of some families."""
     began = perf_counter()
-    found: dict[str, list[Judgement]] = {}
-    for number, case in enumerate(cases(families, count, seed, by)):
-        tell(f"{number} cases, {case.family}")
-        found.setdefault(case.family, []).append(judge(case, by))
-    return Run(found, seed, by.name, perf_counter() - began)
+    judgements: list[Judgement] = []
+    for case in cases(families, count, seed, by):
+        tell(f"{len(judgements)} cases, {case.family}")
+        judgements.append(judge(case, by))
+    return Run(judgements, seed, by.name, perf_counter() - began)
 
 
 def _parser() -> Parser:

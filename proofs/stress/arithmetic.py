@@ -6,8 +6,7 @@ Of Interval at any precision, of IntervalArray in binary64.
 from __future__ import annotations
 
 import operator
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import partial
 from random import Random
@@ -36,28 +35,27 @@ _MOST_BITS = 20_000
 _LEAST = -1074  # binary64 has no multiples of less than 2^-1074
 
 
-@dataclass(frozen=True)
-class _Prescribed(Case):
-    """A case whose answer is one value, to so many bits: in binary64 if of an array."""
+def _operand(ends: Range, bits: int, array: bool, easy: Fraction) -> Any:
+    """Return an Interval, or an IntervalArray with two easy neighbours."""
+    return IntervalArray([easy, ends, easy]) if array else Interval(*ends, precision=bits)
 
-    precision: int
-    array: bool
 
-    def best(self, hull: Range) -> Fraction:
-        """Return the width of the range with its ends rounded outward."""
-        low, high = (rounded_down(x, self.precision, self.array) for x in (hull[0], -hull[1]))
+def _answer(made: Interval | IntervalArray) -> Answer:
+    ends = (made.inf, made.sup) if isinstance(made, Interval) else (made.inf[1], made.sup[1])
+    return {"value": (Fraction(ends[0]), Fraction(ends[1]))}
+
+
+def _case(
+    family: str, given: dict[str, Any], ask: Callable[[], Any], truths: Callable[[Arithmetic], Any]
+) -> Case:
+    """Return a case whose answer is one value, to so many bits: in binary64 if of an array."""
+    bits, array = given["precision"], given["array"]
+
+    def least(hull: Range) -> Fraction:
+        low, high = (rounded_down(x, bits, array) for x in (hull[0], -hull[1]))
         return -high - low
 
-    def operand(self, ends: Range, easy: Fraction) -> Any:
-        """Return an Interval, or an IntervalArray with two easy neighbours."""
-        if self.array:
-            return IntervalArray([easy, ends, easy])
-        return Interval(*ends, precision=self.precision)
-
-
-def _answer(found: Interval | IntervalArray) -> Answer:
-    ends = (found.inf, found.sup) if isinstance(found, Interval) else (found.inf[1], found.sup[1])
-    return {"value": (Fraction(ends[0]), Fraction(ends[1]))}
+    return Case(family, given, lambda: _answer(ask()), truths, least)
 
 
 def rounded_down(value: Fraction, bits: int, binary64: bool = True) -> Fraction:
@@ -74,46 +72,41 @@ def rounded_down(value: Fraction, bits: int, binary64: bool = True) -> Fraction:
 # -- operations ------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class OperationCase(_Prescribed):
-    """[low, high] operation [left, right], their ends of at most `precision` bits."""
+def operation_case(
+    family: str, operation: str, pairs: tuple[Range, Range], bits: int = 53, array: bool = False
+) -> Case:
+    """Return an operation on two intervals, their ends of at most so many bits."""
+    apply, (first, second) = _OPERATIONS[operation], pairs
+    given = {"precision": bits, "array": array, "operation": operation}
+    given |= zip(("low", "high", "left", "right"), (*first, *second), strict=True)
 
-    operation: str
-    low: Fraction
-    high: Fraction
-    left: Fraction
-    right: Fraction
+    def ask() -> Any:
+        return apply(*(_operand(x, bits, array, Fraction(3, 4)) for x in pairs))
 
-    def answer(self) -> Answer:
-        """Return the enclosure."""
-        pairs = (self.low, self.high), (self.left, self.right)
-        return _answer(
-            _OPERATIONS[self.operation](*(self.operand(x, Fraction(3, 4)) for x in pairs))
-        )
-
-    def truths(self, kernel: Arithmetic) -> Sequence[Truth | None]:
-        """Return the two ends of the range, exact: they are values at ends."""
-        if self.operation == "/" and self.left <= 0 <= self.right:
+    def truths(kernel: Arithmetic) -> list[Truth]:
+        if operation == "/" and second[0] <= 0 <= second[1]:
             return [Truth({}, "a quotient by 0")]
-        apply = _OPERATIONS[self.operation]
-        values = [apply(a, b) for a in (self.low, self.high) for b in (self.left, self.right)]
+        values = [apply(a, b) for a in first for b in second]  # the ends are among these
         return [Truth({"value": (end, end)}) for end in (min(values), max(values))]
 
+    return _case(family, given, ask, truths)
 
-def operation(random: Draw, _: Arithmetic) -> OperationCase:
+
+def operation(random: Draw, _: Arithmetic) -> Case:
     """Return a random operation on random hard operands."""
     array = random.random() < 0.5
     bits = 53 if array else random.choice((53, 53, 24, 64, 200))
-    low, high = _operand(random, bits)
-    left, right = _operand(random, bits)
+    low, high = _hard(random, bits)
+    left, right = _hard(random, bits)
     if random.random() < 0.3:  # next to cancellation
         left, right = (low, high) if random.random() < 0.5 else (-high, -low)
         right += abs(right) / 2 ** (bits - 2)
         right = -rounded_down(-right, bits)
-    return OperationCase(random.family, bits, array, random.choice("+-*/"), low, high, left, right)
+    symbol = random.choice("+-*/")
+    return operation_case(random.family, symbol, ((low, high), (left, right)), bits, array)
 
 
-def _operand(random: Random, bits: int) -> Range:
+def _hard(random: Random, bits: int) -> Range:
     """Return an interval of tiny, large or plain numbers, or one around 0."""
     scale = random.choice((0, 0, 0, 1, -1)) * random.randrange(1, 1000)
     low = random.choice((-1, 1)) * Fraction(random.getrandbits(bits), 1 << bits)
@@ -127,35 +120,34 @@ def _operand(random: Random, bits: int) -> Range:
 # -- functions -------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class FunctionCase(_Prescribed):
-    """f on [low, high], whose ends have at most `precision` bits."""
+def function_case(family: str, name: str, ends: Range, bits: int = 53, array: bool = False) -> Case:
+    """Return a function of an interval whose ends have at most so many bits."""
+    given = {"precision": bits, "array": array, "function": name, "low": ends[0], "high": ends[1]}
 
-    function: str
-    low: Fraction
-    high: Fraction
+    def ask() -> Any:
+        easy = Fraction(5, 4) if name == "acosh" else Fraction(3, 4)
+        return getattr(_operand(ends, bits, array, easy), name)()
 
-    def answer(self) -> Answer:
-        """Return the enclosure."""
-        easy = Fraction(5, 4) if self.function == "acosh" else Fraction(3, 4)
-        return _answer(getattr(self.operand((self.low, self.high), easy), self.function)())
+    return _case(family, given, ask, lambda kernel: _extremes(kernel, name, ends, bits))
 
-    def truths(self, kernel: Arithmetic) -> Sequence[Truth | None]:
-        """Return the least and the largest value, or one Truth without value if there is a pole.
 
-        With so many bits that it is known between which two numbers of the precision each lies.
-        """
-        bits = _BITS + max(abs(self.low), abs(self.high)).__ceil__().bit_length()
-        while True:
-            # a value that is such a number never ends it
-            fine = self.precision if bits < _MOST_BITS else 1
-            try:
-                with kernel.precision(bits):
-                    return _range(kernel, self.function, (self.low, self.high), fine)
-            except ArithmeticError:
-                if bits >= _MOST_BITS:
-                    return [None]
-                bits *= 3
+def _extremes(
+    kernel: Arithmetic, function: str, ends: Range, precision: int
+) -> Sequence[Truth | None]:
+    """Return the least and the largest value, or one Truth without value if there is a pole.
+
+    With so many bits that it is known between which two numbers of the precision each lies.
+    """
+    bits = _BITS + max(map(abs, ends)).__ceil__().bit_length()
+    while True:
+        fine = precision if bits < _MOST_BITS else 1  # such a number itself never ends it
+        try:
+            with kernel.precision(bits):
+                return _range(kernel, function, ends, fine)
+        except ArithmeticError:
+            if bits >= _MOST_BITS:
+                return [None]
+            bits *= 3
 
 
 def _range(kernel: Arithmetic, function: str, ends: Range, precision: int) -> list[Truth | None]:
@@ -205,7 +197,7 @@ def _turns(kernel: Arithmetic, x: Fraction, shift: Fraction) -> int:
     return int(low // 1)
 
 
-def function(random: Draw, kernel: Arithmetic) -> FunctionCase:
+def function(random: Draw, kernel: Arithmetic) -> Case:
     """Return a random function at a random hard argument, a point or an interval."""
     name = random.choice(NAMES)
     array = random.family == "arrays"
@@ -219,7 +211,7 @@ def function(random: Draw, kernel: Arithmetic) -> FunctionCase:
         high = max(low, -rounded_down(-low - width, bits))
         outside = high <= 0 if name in _POSITIVE else name in _UNIT and abs(high) >= 1
         high = low if outside else high
-    return FunctionCase(random.family, bits, array, name, low, high)
+    return function_case(random.family, name, (low, high), bits, array)
 
 
 def _argument(random: Random, kernel: Arithmetic, function: str, bits: int) -> Fraction:

@@ -2,45 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import KW_ONLY, dataclass
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from itertools import product
 from random import Random
+from typing import NamedTuple
 
 from proofs.benchmark.peers import Arithmetic, Range
 from proofs.motion.system import System
 from proofs.search.image import PossibleImages, image
 from proofs.search.rebound import rebound
-from proofs.stress.truth import Launched, Ranges, Truth
-from proofs.stress.truth import first_impact as true_impact
+from proofs.stress.truth import Launched, Ranges, Truth, first_impact
 
 Answer = Ranges | list[Ranges]  # bounds by name; or of possible images, one of them true
 Numbers = tuple[Fraction, Fraction]
 ETA, NU = Fraction("0.2121"), Fraction("-0.2")
+_SAMPLES = (Fraction(0), Fraction(281, 1009), Fraction(1, 2), Fraction(1))
 
 
-@dataclass(frozen=True)
-class Case:
-    """One exact input of a family: the case can be made again from its fields."""
+class Case(NamedTuple):
+    """One exact input of a family, from which it can be made again.
+
+    ask: the library, which may raise. truths: what is true at samples, None where that is out of
+    reach. least: the width that an answer has at least whose true values fill a range.
+    """
 
     family: str
-
-    def answer(self) -> Answer:
-        """Ask the library; let it raise."""
-        raise NotImplementedError
-
-    def truths(self, kernel: Arithmetic) -> Sequence[Truth | None]:
-        """Return the truth about every sample, None where it is out of reach."""
-        raise NotImplementedError
-
-    def best(self, hull: Range) -> Fraction:
-        """Return the least width of an answer to this input, if `hull` are the true values."""
-        raise NotImplementedError
+    given: Mapping[str, object]
+    ask: Callable[[], Answer]
+    truths: Callable[[Arithmetic], Sequence[Truth | None]]
+    least: Callable[[Range], Fraction]
 
     def inputs(self) -> dict[str, str]:
-        """Return the fields as text."""
-        return {name: str(getattr(self, name)) for name in self.__dataclass_fields__}
+        """Return family and input as text."""
+        return {"family": self.family, **{name: str(x) for name, x in self.given.items()}}
 
 
 class Draw(Random):
@@ -77,77 +72,49 @@ class Draw(Random):
                 return eta, nu
 
 
-_SAMPLES = (Fraction(0), Fraction(281, 1009), Fraction(1, 2), Fraction(1))
-_HORIZON = Fraction(1000)
+def flight(
+    family: str,
+    oscillator: Numbers,
+    phases: Numbers,
+    digits: int = 30,
+    horizon: int = 1000,
+    *,
+    before: Numbers | None = None,
+) -> Case:
+    """Return the map over launch phases, a point or an interval.
 
+    before: epsilon and gamma, without which impacts are plastic.
+    """
+    (eta, nu), (low, high), far = oscillator, phases, Fraction(horizon)
+    given = {"eta": eta, "nu": nu, "low": low, "high": high, "digits": digits, "horizon": far}
+    if before is not None:
+        given |= zip(("epsilon", "gamma"), before, strict=True)
 
-@dataclass(frozen=True)
-class MapCase(Case):
-    """A map over the launch phases [low, high], a point or an interval."""
+    def ask() -> Answer:
+        system = System(eta, nu)
+        if before is not None:
+            (epsilon, gamma), names = before, product(("phase", "velocity"), ("phi", "gamma"))
+            seen = rebound(system, phases, (gamma, gamma), epsilon, digits=digits, horizon=far)
+            bounds = {"flight": seen.flight, "phase": seen.phase, "velocity": seen.velocity}
+            entries = zip(names, seen.jacobian, strict=True)
+            return bounds | {f"{name} by {by}": entry for (name, by), entry in entries}
+        images = image(system, phases, digits=digits, horizon=far)
+        if isinstance(images, PossibleImages):
+            return [{"flight": time, "phase": phase} for time, phase in images.images]
+        bounds = {"flight": images.flight, "phase": images.phase, "slope": images.slope}
+        return bounds if images.dwell is None else bounds | {"dwell": images.dwell}
 
-    eta: Fraction
-    nu: Fraction
-    low: Fraction
-    high: Fraction
-    _: KW_ONLY
-    digits: int = 30
-    horizon: Fraction = _HORIZON
+    def truth(kernel: Arithmetic, phi: Fraction) -> Truth | None:
+        try:
+            return first_impact(kernel, Launched(eta, nu, phi, *(before or ())), far)
+        except ArithmeticError:
+            return None
 
-    def launched(self, phi: Fraction) -> Launched:
-        """Return one of the launches."""
-        return Launched(self.eta, self.nu, phi)
+    def truths(kernel: Arithmetic) -> Sequence[Truth | None]:
+        samples = sorted({low + share * (high - low) for share in _SAMPLES})
+        return [truth(kernel, phi) for phi in samples]
 
-    def truths(self, kernel: Arithmetic) -> Sequence[Truth | None]:
-        """Return the truth at the ends and inside."""
-        phases = sorted({self.low + share * (self.high - self.low) for share in _SAMPLES})
-        return [_truth(kernel, self.launched(phi), self.horizon) for phi in phases]
+    def least(hull: Range) -> Fraction:
+        return hull[1] - hull[0] + max(map(abs, hull)) / Fraction(10) ** digits
 
-    def best(self, hull: Range) -> Fraction:
-        """Return the width of the true values and of the digits asked for."""
-        return hull[1] - hull[0] + max(map(abs, hull)) / Fraction(10) ** self.digits
-
-
-def _truth(kernel: Arithmetic, of: Launched, horizon: Fraction) -> Truth | None:
-    try:
-        return true_impact(kernel, of, horizon)
-    except ArithmeticError:
-        return None
-
-
-@dataclass(frozen=True)
-class ImageCase(MapCase):
-    """The plastic map."""
-
-    def answer(self) -> Answer:
-        """Return bounds of flight, phase and slope, or the set of possible images."""
-        phases = self.low, self.high
-        found = image(System(self.eta, self.nu), phases, digits=self.digits, horizon=self.horizon)
-        if isinstance(found, PossibleImages):
-            return [{"flight": time, "phase": phase} for time, phase in found.images]
-        named = {"flight": found.flight, "phase": found.phase, "slope": found.slope}
-        if found.dwell is not None:
-            named["dwell"] = found.dwell
-        return named
-
-
-@dataclass(frozen=True)
-class ReboundCase(MapCase):
-    """The map with restitution at one velocity."""
-
-    epsilon: Fraction
-    gamma: Fraction
-
-    def answer(self) -> Answer:
-        """Return bounds of flight, phase, velocity and DF."""
-        system = System(self.eta, self.nu)
-        phases, velocities = (self.low, self.high), (self.gamma, self.gamma)
-        asked = system, phases, velocities, self.epsilon
-        found = rebound(*asked, digits=self.digits, horizon=self.horizon)
-        named = {"flight": found.flight, "phase": found.phase, "velocity": found.velocity}
-        entries = product(("phase", "velocity"), ("phi", "gamma"))
-        named |= {f"{of} by {by}": x for (of, by), x in zip(entries, found.jacobian, strict=True)}
-        return named
-
-    def launched(self, phi: Fraction) -> Launched:
-        """Return one of the launches."""
-        return Launched(self.eta, self.nu, phi, self.epsilon, self.gamma)
+    return Case(family, given, ask, truths, least)

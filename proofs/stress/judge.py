@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
 from statistics import median
@@ -42,23 +41,17 @@ class Outcome(Enum):
         return self in (Outcome.EXCLUDED, Outcome.CRASHED)
 
 
-@dataclass(frozen=True)
-class Judgement:
+class Judgement(NamedTuple):
     """What became of a case. seconds: for the library's answer, on the clock.
 
-    widths: of each of its bounds, by what it must at least be.
+    width: of its widest bounds, by what they must at least be.
     """
 
     case: Case
     outcome: Outcome
     seconds: float
     reason: str = ""
-    widths: dict[str, float] = field(default_factory=dict)
-
-    @property
-    def width(self) -> float | None:
-        """That of the widest bounds."""
-        return max(self.widths.values(), default=None)
+    width: float | None = None
 
 
 def judge(case: Case, kernel: Arithmetic, allowed: float = 1.0) -> Judgement:
@@ -66,7 +59,7 @@ def judge(case: Case, kernel: Arithmetic, allowed: float = 1.0) -> Judgement:
     began = perf_counter()
     try:
         with within(allowed, "VIRTUAL"):
-            answer = case.answer()
+            answer = case.ask()
     except Overrun:
         return Judgement(case, Outcome.STOPPED, allowed, "stopped: it took too long")
     except Exception as error:  # what is no refusal is a defect to be shown
@@ -85,12 +78,12 @@ def judge(case: Case, kernel: Arithmetic, allowed: float = 1.0) -> Judgement:
         return Judgement(case, Outcome.UNJUDGED, seconds, "the truth is out of reach")
     if answer is alternatives:
         return Judgement(case, Outcome.POSSIBLE, seconds)
-    widths = _widths(case, alternatives[0], truths, kernel)
-    return Judgement(case, Outcome.ENCLOSED, seconds, "", widths)
+    width = max(_widths(case, alternatives[0], truths, kernel), default=None)
+    return Judgement(case, Outcome.ENCLOSED, seconds, "", width)
 
 
 def _has_impact(case: Case, kernel: Arithmetic) -> bool:
-    return any(truth is not None and truth.known for truth in case.truths(kernel))
+    return any(truth is not None and truth.bounds for truth in case.truths(kernel))
 
 
 def _excluded(
@@ -106,12 +99,12 @@ def _excluded(
 
 def _wrong(said: Ranges, truth: Truth, kernel: Arithmetic) -> str:
     """Say which true values are outside what was said of them; nothing where all are inside."""
-    if not truth.known:
+    if not truth.bounds:
         return f"there is no value: {truth.reason}"
     wrong = []
     for name, (low, high) in said.items():
-        if name in truth.known:
-            true = _beside(name, truth.known[name], (low, high), kernel)
+        if name in truth.bounds:
+            true = _beside(name, truth.bounds[name], (low, high), kernel)
             if true[1] < low or high < true[0]:
                 ends = f"[{float(low):.17g}, {float(high):.17g}]"
                 wrong.append(f"{name} {ends}, not {float(true[0]):.17g}")
@@ -130,25 +123,22 @@ def _beside(name: str, true: Range, said: Range, kernel: Arithmetic) -> Range:
 
 def _widths(
     case: Case, answer: Ranges, truths: Sequence[Truth | None], kernel: Arithmetic
-) -> dict[str, float]:
-    """Return the width of every quantity by the best possible; 1 where both are 0."""
-    widths = {}
+) -> Iterator[float]:
+    """Yield the width of every quantity by the best possible; 1 where both are 0."""
     for name, said in answer.items():
-        known = [truth.known[name] for truth in truths if truth and name in truth.known]
-        if len(known) < len(truths):
+        true = [truth.bounds[name] for truth in truths if truth and name in truth.bounds]
+        if len(true) < len(truths):
             continue
-        near = [_beside(name, true, said, kernel) for true in known]
-        best = case.best((min(x[0] for x in near), max(x[1] for x in near)))
+        near = [_beside(name, true, said, kernel) for true in true]
+        least = case.least((min(x[0] for x in near), max(x[1] for x in near)))
         width = said[1] - said[0]
-        if best > 0:
-            widths[name] = float(min(width / best, _WIDEST))
+        if least > 0:
+            yield float(min(width / least, _WIDEST))
         elif width == 0:
-            widths[name] = 1.0
-    return widths
+            yield 1.0
 
 
 SCHEMA = "impact-proofs.stress/1"
-_REASONS = 3  # of a family, that are shown
 _OUTCOMES = {
     outcome.name if outcome.failure else outcome.name.lower(): outcome for outcome in Outcome
 }
@@ -158,28 +148,23 @@ Each case is an exact input at which programs fail; the answer of the library is
 with a computation to 100 digits by another kernel. Width: of the widest bounds of an
 answer, by the least possible (what the input's own width makes of the result, and the
 digits asked for); median and largest. ms: on the clock. Possible: a set of possible
-images, the true one among them. Refused: for the reasons below. Stopped: after a second
-of work. Missed: refused for want of an impact, or as impossible, though there is one.
-Unjudged: the truth is out of reach."""
+images, the true one among them. Refused: with the reason that the machine form gives.
+Stopped: after a second of work. Missed: refused for want of an impact, or as impossible,
+though there is one. Unjudged: the truth is out of reach."""
 
 
 class Run(NamedTuple):
     """All judgements of one run, by family, and what it was asked for."""
 
-    families: dict[str, list[Judgement]]
+    judgements: list[Judgement]
     seed: int
     kernel: str
     seconds: float
 
     @property
-    def judgements(self) -> list[Judgement]:
-        """Return all of them."""
-        return [one for some in self.families.values() for one in some]
-
-    @property
     def failures(self) -> list[Judgement]:
         """Return the cases on which the library is wrong."""
-        return [one for one in self.judgements if one.outcome.failure]
+        return [each for each in self.judgements if each.outcome.failure]
 
 
 def text(run: Run) -> str:
@@ -191,10 +176,7 @@ def markdown(run: Run, about: dict[str, str]) -> str:
     """Return the page. about: what each family is."""
     lines = ["# Stress", "", f"{_verdict(run)}. Seed {run.seed}.", "", _ABOUT, "", _table(run)]
     lines += ["", "## What each family is", ""]
-    lines += [f"- {name}: {about[name]}" for name in run.families]
-    lines += ["", "## Why cases were refused", ""]
-    for name, some in run.families.items():
-        lines += [f"- {name}: {count} times: {why}" for why, count in _reasons(some)]
+    lines += [f"- {name}: {about[name]}" for name in _families(run)]
     if run.failures:
         lines += ["", "## Failures", "", *(f"- {line}" for line in _failures(run))]
     return "\n".join(lines) + "\n"
@@ -204,31 +186,37 @@ def machine_form(run: Run) -> str:
     """Return every case as JSON: its exact input and what became of it."""
     cases = [
         {
-            **one.case.inputs(),
-            "outcome": one.outcome.value,
-            "ms": round(1000 * one.seconds, 3),
-            "reason": one.reason,
-            "width": {name: float(f"{width:.4g}") for name, width in one.widths.items()},
+            **each.case.inputs(),
+            "outcome": each.outcome.value,
+            "ms": round(1000 * each.seconds, 3),
+            "reason": each.reason,
+            "width": each.width and float(f"{each.width:.4g}"),
         }
-        for one in run.judgements
+        for each in run.judgements
     ]
     data = {"schema": SCHEMA, "seed": run.seed, "kernel": run.kernel}
     data |= {"seconds": round(run.seconds, 2), "failures": len(run.failures), "cases": cases}
     return json.dumps(data, indent=1) + "\n"
 
 
+def _families(run: Run) -> dict[str, list[Judgement]]:
+    """Return the judgements on each family."""
+    names = dict.fromkeys(each.case.family for each in run.judgements)
+    return {name: [x for x in run.judgements if x.case.family == name] for name in names}
+
+
 def _table(run: Run) -> str:
-    rows = [_HEADER, *(_row(name, some) for name, some in run.families.items())]
+    rows = [_HEADER, *(_row(name, judged) for name, judged in _families(run).items())]
     return "\n".join(markdown_table(rows, numbers_from=1))
 
 
-def _row(name: str, some: Sequence[Judgement]) -> tuple[str, ...]:
+def _row(name: str, judged: Sequence[Judgement]) -> tuple[str, ...]:
     """Return the line of a family; widths and times are medians and largest."""
-    count = Counter(one.outcome for one in some)
-    numbers = len(some), *(count[outcome] for outcome in _OUTCOMES.values())
+    count = Counter(each.outcome for each in judged)
+    numbers = len(judged), *(count[outcome] for outcome in _OUTCOMES.values())
     row = [name, *map(str, numbers)]
-    widths = [one.width for one in some if one.width is not None]
-    for values in (widths, [1000 * one.seconds for one in some]):
+    widths = [each.width for each in judged if each.width is not None]
+    for values in (widths, [1000 * each.seconds for each in judged]):
         row += [f"{median(values):.2g}", f"{max(values):.2g}"] if values else ["-", "-"]
     return tuple(row)
 
@@ -237,19 +225,11 @@ def _verdict(run: Run) -> str:
     count = f"{len(run.judgements)} cases in {run.seconds:.0f} s, judged by {run.kernel}: "
     if not run.failures:
         return count + "no case excludes the truth"
-    excluded = sum(one.outcome is Outcome.EXCLUDED for one in run.failures)
+    excluded = sum(each.outcome is Outcome.EXCLUDED for each in run.failures)
     return count + f"{excluded} EXCLUDE THE TRUTH, {len(run.failures) - excluded} crash"
 
 
 def _failures(run: Run) -> Iterator[str]:
-    for one in run.failures:
-        family, *given = (f"{name} = {value}" for name, value in one.case.inputs().items())
-        yield f"{one.outcome.value}: {family}: {one.reason}; input {', '.join(given)}"
-
-
-def _reasons(some: Sequence[Judgement]) -> list[tuple[str, int]]:
-    """Return the commonest reasons of refusals, without what differs from case to case."""
-    refused = (Outcome.REFUSED, Outcome.STOPPED, Outcome.MISSED)
-    reasons = (one.reason.split() for one in some if one.outcome in refused)
-    words = (["..." if any(map(str.isdigit, word)) else word for word in each] for each in reasons)
-    return Counter(map(" ".join, words)).most_common(_REASONS)
+    for each in run.failures:
+        family, *given = (f"{name} = {value}" for name, value in each.case.inputs().items())
+        yield f"{each.outcome.value}: {family}: {each.reason}; input {', '.join(given)}"

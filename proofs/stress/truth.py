@@ -1,5 +1,7 @@
 """The truth about one motion to 100 digits: the paper's (10), (14), (15) typed again, in Arb.
 
+Nothing is shared with what is tried, so that a slip in an equation shows as well.
+
 The first impact is found by steps that cannot pass a zero. The mass is a harmonic oscillator of
 amplitude A, so |d^k gap / dt^k| <= M_k = |nu| + eta^k A for k >= 2; where gap = g > 0 and gap' = v,
 the gap is positive for the next (v + sqrt(v^2 + 2 M g)) / M, M = M_2, by Taylor. Once 4 M g < v^2
@@ -32,7 +34,7 @@ Ranges = dict[str, Range]
 class Truth:
     """Bounds of true values, by name; none of them, and a reason, where there is no value."""
 
-    known: Ranges
+    bounds: Ranges
     reason: str = ""
 
 
@@ -54,12 +56,12 @@ class Launched:
 class Motion:
     """The flight after a launch; from another phase, if one is given."""
 
-    def __init__(self, kernel: Arithmetic, of: Launched, phi: Any = None) -> None:
-        self.kernel, self.of = kernel, of
-        self.side = 1 if of.nu > 0 else -1
-        self.eta, self.nu, self.epsilon = map(kernel.point, (of.eta, of.nu, of.epsilon))
-        self.phi = kernel.point(of.phi) if phi is None else phi
-        self.gamma = kernel.point(of.gamma or 0)
+    def __init__(self, kernel: Arithmetic, given: Launched, phi: Any = None) -> None:
+        self.kernel, self.given = kernel, given
+        self.side = 1 if given.nu > 0 else -1
+        self.eta, self.nu, self.epsilon = map(kernel.point, (given.eta, given.nu, given.epsilon))
+        self.phi = kernel.point(given.phi) if phi is None else phi
+        self.gamma = kernel.point(given.gamma or 0)
         height, speed = self._launch(self.phi, self.gamma)
         self.amplitude = kernel.call("sqrt", height * height + speed * speed)
 
@@ -97,42 +99,43 @@ class Motion:
 
     def answers(self, t: Any) -> dict[str, Any]:
         """Return flight, phase, gamma and f' or DF at an impact, by implicit differentiation."""
-        found = {"flight": t, "phase": self.phi + t}
-        found["velocity"] = self.after(self.phi, self.gamma, t)[1]
+        values = {"flight": t, "phase": self.phi + t}
+        values["velocity"] = self.after(self.phi, self.gamma, t)[1]
         by_t, push = self.rates(t, 2)
         for k, name in enumerate(("phi", "gamma")):
             gap, velocity = self.rates(t, k)
-            found[f"phase by {name}"] = 1 - k - gap / by_t
-            found[f"velocity by {name}"] = velocity - gap / by_t * push
-        if self.of.gamma is None:
+            values[f"phase by {name}"] = 1 - k - gap / by_t
+            values[f"velocity by {name}"] = velocity - gap / by_t * push
+        if self.given.gamma is None:
             names = {"flight": "flight", "phase": "phase", "phase by phi": "slope"}
-            return {new: found[old] for old, new in names.items()}
-        return found
+            return {new: values[old] for old, new in names.items()}
+        return values
 
 
-def first_impact(kernel: Arithmetic, of: Launched, horizon: Fraction) -> Truth:
+def first_impact(kernel: Arithmetic, given: Launched, horizon: Fraction) -> Truth:
     """Return the truth about the next impact, phases up to 2 pi; raise Unknown where it must."""
     with kernel.precision(BITS):
-        motion = Motion(kernel, of)
+        motion = Motion(kernel, given)
         _, first, second = motion.gap(kernel.point(0), 2)
-        if of.gamma is not None and of.epsilon != 0 and _sign(kernel, first) < 0:
+        rebounds = given.gamma is not None and given.epsilon != 0
+        if rebounds and _sign(kernel, first) < 0:
             raise Unknown("an impossible state")
-        sticks = (of.gamma is None or of.epsilon == 0) and _sign(kernel, second) < 0
+        sticks = not rebounds and _sign(kernel, second) < 0
         if sticks:
-            leave = separation(kernel, of.eta, of.nu)
+            leave = separation(kernel, given.eta, given.nu)
             if leave is None:
                 return Truth({}, "the mass stays on the table")
-            motion = Motion(kernel, Launched(of.eta, of.nu, of.phi), leave)
+            motion = Motion(kernel, Launched(given.eta, given.nu, given.phi), leave)
         time = _first_zero(motion, horizon, leaving=sticks)
         if time is None:
             return Truth({}, "no impact up to the horizon")
-        found = motion.answers(time)
+        values = motion.answers(time)
         if sticks:
-            dwell = leave - kernel.point(of.phi)
+            dwell = leave - kernel.point(given.phi)
             while _sign(kernel, dwell) < 0:  # the next time that the table is there
                 dwell += 2 * kernel.pi()
-            found |= dict.fromkeys(_CONSTANT, kernel.point(0)) | {"dwell": dwell}
-        return Truth({name: kernel.ends(value) for name, value in found.items()})
+            values |= dict.fromkeys(_CONSTANT, kernel.point(0)) | {"dwell": dwell}
+        return Truth({name: kernel.ends(value) for name, value in values.items()})
 
 
 def separation(kernel: Arithmetic, eta: Fraction, nu: Fraction) -> Any:
@@ -174,16 +177,16 @@ def _advanced(motion: Motion, t: Any, horizon: Fraction) -> Any:
     for _ in range(_MOST_STEPS):
         if kernel.ends(t)[0] >= horizon:
             return t
-        gap, rate, second = motion.gap(t, 2)
-        if _sign(kernel, gap) <= 0:
+        height, rate, second = motion.gap(t, 2)
+        if _sign(kernel, height) <= 0:
             return t
         bend = abs(second) + motion.most(3) * t
         near = _sign(kernel, motion.most(2) - bend) > 0
         bend = bend if near else motion.most(2)
-        falls = _sign(kernel, rate) < 0 and _sign(kernel, 4 * bend * gap - rate * rate) < 0
-        if falls and not (near and _sign(kernel, 2 * gap + rate * t) > 0):
+        falls = _sign(kernel, rate) < 0 and _sign(kernel, 4 * bend * height - rate * rate) < 0
+        if falls and not (near and _sign(kernel, 2 * height + rate * t) > 0):
             return t
-        step = (rate + kernel.call("sqrt", rate * rate + 2 * bend * gap)) / bend
+        step = (rate + kernel.call("sqrt", rate * rate + 2 * bend * height)) / bend
         if near and _sign(kernel, step - t) > 0:
             step = t
         t = kernel.middle(t + step * kernel.point(_SHORTER))
@@ -199,7 +202,7 @@ def _start(motion: Motion, leaving: bool) -> Any:
         starts.append(2 * third / motion.most(4))
     if not leaving and _sign(kernel, second) > 0:
         starts.append(3 * second / (2 * motion.most(3)))
-    if not leaving and motion.of.gamma is not None and _sign(kernel, first) > 0:
+    if not leaving and motion.given.gamma is not None and _sign(kernel, first) > 0:
         starts.append(first / motion.most(2))
     if not starts:
         raise Unknown("the launch itself is not decided")
@@ -211,8 +214,8 @@ def _polished(motion: Motion, t: Any) -> Any:
     """Return the zero next to t, by Newton's method, its ends proved by the signs of the gap."""
     kernel = motion.kernel
     for _ in range(14):
-        gap, rate = motion.gap(t, 1)
-        t = kernel.middle(t - gap / rate)
+        height, rate = motion.gap(t, 1)
+        t = kernel.middle(t - height / rate)
     reach = abs(t) * kernel.point(_RELATIVE)
     signs = [_sign(kernel, motion.gap(end, 1)[0]) for end in (t - reach, t + reach)]
     if signs != [1, -1]:
@@ -229,7 +232,7 @@ GRAZES = {
     ("0.35", "-0.5"): "1.16952 13.369, 1.27043 32.017, 2.11154 5.202",
     ("1.4", "-2.3"): "0.38704 2.368, 0.51608 2.109",
 }
-_PLACES = [(*of, *each.split()) for of, some in GRAZES.items() for each in some.split(", ")]
+_PLACES = [(*where, *each.split()) for where, near in GRAZES.items() for each in near.split(", ")]
 _STEPS = 10
 
 
@@ -241,8 +244,8 @@ def graze(kernel: Arithmetic, number: int) -> tuple[Fraction, Fraction, Fraction
         phase, time = map(kernel.point, near)
         for _ in range(_STEPS):
             motion = Motion(kernel, Launched(eta, nu, Fraction(0)), phase)
-            gap, rate, bend = motion.gap(time, 2)
-            phase = kernel.middle(phase - gap / motion.rates(time, 0)[0])
+            height, rate, bend = motion.gap(time, 2)
+            phase = kernel.middle(phase - height / motion.rates(time, 0)[0])
             time = kernel.middle(time - rate / bend)
         return eta, nu, _decimal(kernel, phase)
 

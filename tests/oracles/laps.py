@@ -137,13 +137,13 @@ def entropy_range(view, rng):
 
 def expansion(view, rng):
     """Lengths times the pieces' scales grow by the rate, at the ends of branches and in between."""
-    told = pieces(view.pieces, rng)
-    parts = _branches(view.pieces)
+    at, told = view.pieces, pieces(view.pieces, rng)
+    parts = _branches(at)
     if len(parts) != len(view.scales) or not min(view.scales) > 0 or not view.rate > 1:
         return [*told, "no scales > 0, or no rate > 1"]
     for part, scale in zip(parts, view.scales, strict=True):
         for share in (0, Fraction(rng.random()), 1):
-            found = flight(view.eta, view.nu, between(part.phases, share), latest=_LONG)
+            found = flight(at.eta, at.nu, between(part.phases, share), latest=_LONG)
             if not isinstance(found, Impact):
                 continue
             for other, target in zip(parts, view.scales, strict=True):

@@ -24,10 +24,10 @@ _SPARE_DIGITS = 12
 _NEWTON = 60  # steps from a guess
 
 
-def prove_jacobian(file: Lemmas, of: Map) -> None:
+def prove_jacobian(file: Lemmas, map_: Map) -> None:
     """Add that the Jacobian is what sympy finds: G_x1 J + G_x = 0, entry by entry."""
-    texts = [[derive.write(entry) for entry in row] for row in of.jacobian.tolist()]
-    for entry in of.implicit(texts):
+    texts = [[derive.write(entry) for entry in row] for row in map_.jacobian.tolist()]
+    for entry in map_.implicit(texts):
         with derived():
             file.equal(entry, "0")
 
@@ -126,11 +126,11 @@ def prove_enclosure(
     return Enclosed(form, parameter, box, bounds["critical"], bounds["speed"], determinant)
 
 
-def _invariants(of: Map) -> dict[str, str]:
+def _invariants(map_: Map) -> dict[str, str]:
     """Return trace and determinant of the Jacobian; of a map of the line its derivative."""
-    if len(of.state) == 2:
-        return of.invariants()
-    return {"determinant": f"-{of.characteristic('0')}/{of.turning()}"}  # det(-J) = -J
+    if len(map_.state) == 2:
+        return map_.invariants()
+    return {"determinant": f"-{map_.characteristic('0')}/{map_.turning()}"}  # det(-J) = -J
 
 
 def _bounds(file: Lemmas, text: str, box: Mapping[str, Range], digits: int) -> Range:

@@ -36,7 +36,7 @@ class _Decided(Exception):
     """A test that ends the classification."""
 
     def __init__(self, kind: str, why: str = "") -> None:
-        self.found = Class(kind, why)
+        self.what = Class(kind, why)
 
 
 @dataclass
@@ -83,7 +83,7 @@ def classified(condition: str, plane: bool, sign: Sign) -> Class:
         circle = condition == "neimark_sacker"
         kind = _circle(tests) if circle else _line(tests, condition, plane)
     except _Decided as end:
-        return end.found._replace(where=tuple(tests.where))
+        return end.what._replace(where=tuple(tests.where))
     return Class(kind, where=tuple(tests.where))
 
 

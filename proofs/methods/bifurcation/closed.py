@@ -38,14 +38,14 @@ class Closed:
     """
 
     values: Solution
-    found: Class
+    what: Class
     signs: Mapping[str, int]
     roots: Solution = field(default_factory=dict)
 
     @property
     def kept(self) -> bool:
         """Whether it is a bifurcation, or a resonance."""
-        return not self.found.dropped
+        return not self.what.dropped
 
 
 def closed(file: Lemmas, form: NormalForm, names: tuple[str, ...]) -> list[Closed]:
@@ -60,11 +60,11 @@ def closed(file: Lemmas, form: NormalForm, names: tuple[str, ...]) -> list[Close
             f"no closed form of {', '.join(names)} is found: solve for others, or look near numbers"
         )
     plain = [each for each in candidates if not _rooted(each)]
-    found = [_classified(file, form, each, parameter) for each in plain]
+    classes = [_classified(file, form, each, parameter) for each in plain]
     for each in candidates:
-        if _rooted(each) and not any(_is_reached(each, other) for other in found):
-            found.append(_by_roots(file, form, names, each, {}))
-    return found
+        if _rooted(each) and not any(_is_reached(each, other) for other in classes):
+            classes.append(_by_roots(file, form, names, each, {}))
+    return classes
 
 
 def _rooted(point: Solution) -> bool:
@@ -181,26 +181,26 @@ class Numbers:
     def sign(self, name: str) -> int | None:
         """Return the sign of a number; None if that depends on parameters."""
         text = name.replace("^", "**")
-        for known in ("trace", "determinant"):
-            if known in text and known not in self.values:
-                self._note(known, self.form.map.invariants()[known])
+        for invariant in ("trace", "determinant"):
+            if invariant in text and invariant not in self.values:
+                self._note(invariant, self.form.map.invariants()[invariant])
         if name in ("critical", "speed", "cubic", "crossing", "mixed") and name not in self.values:
             self._find(name)
-        known = derive.simplest(derive.read(text, self.values))
-        if known.free_symbols:
+        number = derive.simplest(derive.read(text, self.values))
+        if number.free_symbols:
             return None
-        found = self._sign(derive.write(known)) if known != 0 else 0
+        sign = self._sign(derive.write(number)) if number != 0 else 0
         if name in self.values:
-            self.signs[name] = found
-        return found
+            self.signs[name] = sign
+        return sign
 
     def _sign(self, text: str) -> int:
         """Return the sign of a number that is not 0."""
         import sympy
 
-        known = derive.read(text)
-        if known.is_Rational:
-            return int(sympy.sign(known))
+        number = derive.read(text)
+        if number.is_Rational:
+            return int(sympy.sign(number))
         return self._proved_sign(text)
 
     def _proved_sign(self, text: str) -> int:
@@ -216,12 +216,12 @@ class Numbers:
 
     def _at(self, text: str) -> str:
         places = self.form.map.at_rest(self.point).items()
-        return f"at({text}, {', '.join(f'{x}={derive.write(of)}' for x, of in places)})"
+        return f"at({text}, {', '.join(f'{x}={derive.write(value)}' for x, value in places)})"
 
     def _note(self, name: str, text: str) -> None:
         """Find a number by its formula at the candidate, and take down the lemma."""
-        known = self._normal or self.point
-        self.values[name] = derive.simplest(derive.read(text, known))
+        values = self._normal or self.point
+        self.values[name] = derive.simplest(derive.read(text, values))
         if not derive.is_real(self.values[name]):
             raise Undecided(f"{name} is not defined there")
         self._lemmas.append(Equal.read(text, name))
@@ -244,12 +244,12 @@ class Numbers:
         reason = Undecided("no normal form")
         for each in charts(self.form):
             try:
-                found = coefficients(each, self.point, self.parameter)
+                normal = coefficients(each, self.point, self.parameter)
             except Undecided as failure:
                 reason = failure
                 continue
             self.form = each
-            return found
+            return normal
         raise reason
 
     def _row(self) -> int:
@@ -278,24 +278,24 @@ class Numbers:
         Where roots or logarithms occur, of which the checker has no series, by derivatives at the
         fixed point, around which the map is smooth where it is defined.
         """
-        form, found = self.form, self._normal or {}
+        form, values = self.form, self._normal or {}
         if has_roots(self.point) or re.search("sqrt|log", "".join(form.map.equations)):
             orders = (form.homological(k) for k in range(form.order + 1))
             return [Equal.read(each, "0") for order in orders for each in order]
         scaled = ", ".join(f"{x}=h*{x}" for x in form.coordinates if x != "h")
         sides = [f"at({each}, {scaled})" if scaled else each for each in form.conjugacy()]
-        nought, nonzero = ("0",) * (form.order + 1), tuple(_divisors(form, found))
+        nought, nonzero = ("0",) * (form.order + 1), tuple(_divisors(form, values))
         return [Series.read(each, "h", nought, nonzero) for each in sides]
 
 
-def _divisors(form: NormalForm, found: Solution) -> list[str]:
+def _divisors(form: NormalForm, solution: Solution) -> list[str]:
     """Return the factors of all denominators at a solution, but numbers."""
     import sympy
 
-    at_rest = [derive.simplest(derive.read(each, found)) for each in form.map.equations]
+    at_rest = [derive.simplest(derive.read(each, solution)) for each in form.map.equations]
     factors = {
         factor
-        for each in (*found.values(), *at_rest, *_partials(form, found))
+        for each in (*solution.values(), *at_rest, *_partials(form, solution))
         for factor in derive.factors(sympy.denom(each))
     }
     return sorted(derive.write(factor) for factor in factors if not factor.is_Rational)

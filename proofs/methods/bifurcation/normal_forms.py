@@ -183,14 +183,14 @@ class NormalForm:
         Of a fold the derivative of N; of a flip that of the multiplier; of a Neimark-Sacker
         bifurcation that of its absolute value squared, det J. It is not 0 if the parameter unfolds.
         """
-        of = self.map
+        map_ = self.map
         if MULTIPLIER.get(self.kind) == "1":
             return self._drift_of_fold(parameter)
         if self.kind == "flip":
-            polynomial = of.characteristic("multiplier")
-            rate = _along(polynomial, of, parameter)
+            polynomial = map_.characteristic("multiplier")
+            rate = _along(polynomial, map_, parameter)
             return f"at(-({rate})/D({polynomial}, multiplier), multiplier=-1)"
-        return _along(f"({of.characteristic('0')}/{of.turning()})", of, parameter)
+        return _along(f"({map_.characteristic('0')}/{map_.turning()})", map_, parameter)
 
     def _drift_of_fold(self, parameter: str) -> str:
         """Return -l G_mu/(l G_x1 q), l the left null vector of G_x + G_x1, q the right one."""
@@ -234,12 +234,12 @@ class NormalForm:
             other = 1 - self.lead
             across[other] = f"(-D({self.map.fixed[row]}, {parameter})/{rows[row][other]})"
 
-        def second(one: list[str], two: list[str]) -> str:
+        def second(first: list[str], last: list[str]) -> str:
             return " + ".join(
                 f"{weight}*D({each}, {x}, {y})*{a}*{b}"
                 for weight, each in zip(left, self.map.fixed, strict=True)
-                for x, a in zip(names, one, strict=True)
-                for y, b in zip(names, two, strict=True)
+                for x, a in zip(names, first, strict=True)
+                for y, b in zip(names, last, strict=True)
                 if "0" not in (a, b)
             )
 
@@ -247,9 +247,9 @@ class NormalForm:
         return f"({mixed})**2 - ({second(along, along)})*({second(across, across)})", mixed
 
 
-def _along(text: str, of: Map, parameter: str) -> str:
+def _along(text: str, map_: Map, parameter: str) -> str:
     """Write the derivative of a formula by a parameter along the fixed point."""
-    moves = zip(of.state, of.drift(parameter), strict=True)
+    moves = zip(map_.state, map_.drift(parameter), strict=True)
     return " + ".join([f"D({text}, {parameter})", *(f"D({text}, {x})*{by}" for x, by in moves)])
 
 

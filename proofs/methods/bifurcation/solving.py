@@ -20,10 +20,10 @@ def points(form: NormalForm, names: tuple[str, ...]) -> list[Solution]:
 
 def solve(equations: list[Any], names: tuple[str, ...]) -> list[Solution]:
     """Return solutions in closed form, without roots; Undecided where none is found."""
-    found = [point for point in solutions(equations, names) if not has_roots(point)]
-    if not found:
+    candidates = [point for point in solutions(equations, names) if not has_roots(point)]
+    if not candidates:
         raise Undecided(f"no closed form of {', '.join(names)} without roots is found")
-    return found
+    return candidates
 
 
 def solutions(equations: list[Any], names: tuple[str, ...]) -> list[Solution]:
@@ -34,12 +34,12 @@ def solutions(equations: list[Any], names: tuple[str, ...]) -> list[Solution]:
     """
     import sympy
 
-    found: list[Solution] = []
+    distinct: list[Solution] = []
     for each in _solved(equations, [sympy.Symbol(name) for name in names]):
         point = {str(name): value for name, value in each.items()}
-        if point not in found:
-            found.append(point)
-    return found
+        if point not in distinct:
+            distinct.append(point)
+    return distinct
 
 
 def has_roots(point: Solution) -> bool:
@@ -67,7 +67,7 @@ def _solved(equations: list[Any], unknowns: list[Any]) -> list[Solution]:
         factors = [f for f in factors if not isinstance(f, sympy.exp)]  # that is not 0
         choices = [(f, x) for f in factors for x in unknowns if _solvable(f, x, unknowns)]
         if factors and {f for f, _ in choices} == set(factors):
-            found = [
+            solved = [
                 {unknown: derive.simplest(value.subs(rest)), **rest}
                 for factor in factors
                 for unknown in [next(x for f, x in choices if f == factor)]
@@ -81,9 +81,9 @@ def _solved(equations: list[Any], unknowns: list[Any]) -> list[Solution]:
                     else [{}]
                 )
             ]
-            found = [each for each in found if all(map(_may_be_real, each.values()))]
-            if found:
-                return found
+            solved = [each for each in solved if all(map(_may_be_real, each.values()))]
+            if solved:
+                return solved
     return []
 
 
@@ -119,10 +119,10 @@ def _roots(factor: Any, x: Any) -> list[Any]:
 
 def coefficients(form: NormalForm, point: Solution, parameter: str) -> Solution:
     """Return what the homological equations determine at a bifurcation; critical, and speed."""
-    known: Solution = dict(point)
+    values: Solution = dict(point)
 
     def placed(text: str) -> Any:
-        return derive.read(text, known)
+        return derive.read(text, values)
 
     series = _taylor(form, placed)
     for order in range(1, form.order + 1):
@@ -132,15 +132,15 @@ def coefficients(form: NormalForm, point: Solution, parameter: str) -> Solution:
         moved = [_composed(each, reduced, order) for each in steps]
         sides = [_composed(each, [*steps, *moved], order) for each in series]
         equations = [side.get(powers, 0) for side in sides for powers in form.powers(order)]
-        known |= _linear(equations, form.unknowns_of(order))
+        values |= _linear(equations, form.unknowns_of(order))
     last = {"critical": form.criticality, "speed": form.speed(parameter)}
     wanted = (*sorted(point), *form.unknowns)
-    found = {name: known[name] for name in wanted} | {
+    named = {name: values[name] for name in wanted} | {
         name: derive.simplest(placed(text)) for name, text in last.items()
     }
-    if not all(map(derive.is_real, found.values())):
+    if not all(map(derive.is_real, named.values())):
         raise Undecided("a coefficient is not defined: the bifurcation is degenerate")
-    return found
+    return named
 
 
 Polynomial = dict[tuple[int, ...], Any]  # coefficients, expressions of sympy, by exponents
@@ -150,10 +150,10 @@ def _taylor(form: NormalForm, placed: Callable[[str], Any]) -> list[Polynomial]:
     """Return the equations as polynomials in the steps of point and image, at the fixed point."""
     import sympy
 
-    of, found = form.map, []
-    rest = ", ".join(f"{image}={x}" for image, x in zip(of.images, of.state, strict=True))
-    names = (*of.state, *of.images)
-    for each in of.equations:
+    map_, polynomials = form.map, []
+    rest = ", ".join(f"{image}={x}" for image, x in zip(map_.images, map_.state, strict=True))
+    names = (*map_.state, *map_.images)
+    for each in map_.equations:
         terms: Polynomial = {}
         for powers in product(range(form.order + 1), repeat=len(names)):
             if 0 < sum(powers) <= form.order:
@@ -163,8 +163,8 @@ def _taylor(form: NormalForm, placed: Callable[[str], Any]) -> list[Polynomial]:
                 value = derive.simplest(placed(f"at(D({each}, {by}), {rest})"))
                 if value != 0:
                     terms[powers] = value / sympy.prod(map(sympy.factorial, powers))
-        found.append(terms)
-    return found
+        polynomials.append(terms)
+    return polynomials
 
 
 def _truncated(expression: Any, form: NormalForm, order: int) -> Polynomial:
@@ -190,9 +190,9 @@ def _composed(outer: Polynomial, inner: list[Polynomial], order: int) -> Polynom
 
 def _product(a: Polynomial, b: Polynomial, order: int) -> Polynomial:
     result: Polynomial = {}
-    for one, c in a.items():
-        for two, d in b.items():
-            exponents = tuple(map(sum, zip(one, two, strict=True)))
+    for left, c in a.items():
+        for right, d in b.items():
+            exponents = tuple(map(sum, zip(left, right, strict=True)))
             if sum(exponents) <= order:
                 result[exponents] = result.get(exponents, 0) + c * d
     return result
@@ -205,7 +205,7 @@ def _linear(equations: list[Any], names: tuple[str, ...]) -> Solution:
     unknowns = [sympy.Symbol(name) for name in names]
     tops = [sympy.numer(derive.simplest(each)) for each in equations]
     tops = [top for top in tops if top != 0]
-    found = sympy.solve(tops, unknowns, dict=True) if names else [{}] * (not tops)
-    if len(found) != 1 or len(found[0]) != len(names):
+    solved = sympy.solve(tops, unknowns, dict=True) if names else [{}] * (not tops)
+    if len(solved) != 1 or len(solved[0]) != len(names):
         raise Undecided(f"no coefficients {', '.join(names)}: the bifurcation is degenerate")
-    return {str(name): derive.simplest(value) for name, value in found[0].items()}
+    return {str(name): derive.simplest(value) for name, value in solved[0].items()}

@@ -35,7 +35,7 @@ _OWN: Mapping[str, tuple[str, str]] = MappingProxyType(
 def names(certificate: str = "") -> list[str]:
     """Return the names of the report's figures, or of all that one certificate alone gives."""
     places = {**_PLACES, **_OWN} if certificate else _PLACES
-    return [name for name, (of, _) in places.items() if certificate in ("", of)]
+    return [name for name, (file, _) in places.items() if certificate in ("", file)]
 
 
 def figures(certificate: str = "") -> list[Figure]:

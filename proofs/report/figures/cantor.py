@@ -39,15 +39,18 @@ def cylinders(system: System, left: Range, right: Range, levels: int) -> dict[st
 
 def plot(proved: Context) -> Drawing:
     """Draw both constructions, level by level."""
-    of, corrected = proved.of, the(proved, StayingSet)
+    statement, corrected = proved.of, the(proved, StayingSet)
     drawing, both = style.sheet(4.2, 2, 1, sharex=True)
     for axes, (left, right), name in (
-        (both[0], (of.left, of.right), "printed"),
+        (both[0], (statement.left, statement.right), "printed"),
         (both[1], corrected.cells, "corrected"),
     ):
         interval = left[0], right[1]
         _levels(
-            axes, interval, (left, right), cylinders(System(of.eta, of.nu), left, right, _LEVELS)
+            axes,
+            interval,
+            (left, right),
+            cylinders(System(statement.eta, statement.nu), left, right, _LEVELS),
         )
         repeller = next(x for x in all_of(proved, Repeller) if x.hull == interval)
         dimension = between(repeller.dimension, 8)

@@ -56,12 +56,12 @@ class Figure:
 class Certificates(Mapping[str, Context]):
     """What the certificates of a folder prove, by name; each is derived once, when asked for.
 
-    known: what was derived from some of them just now.
+    derived: what was derived from some of them just now.
     """
 
-    def __init__(self, folder: Path, known: Documents = MappingProxyType({})) -> None:
+    def __init__(self, folder: Path, derived: Documents = MappingProxyType({})) -> None:
         self._folder = folder
-        self._known = dict(known)
+        self._known = dict(derived)
 
     def __getitem__(self, name: str) -> Context:
         if name not in self._known:

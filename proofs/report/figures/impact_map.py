@@ -76,23 +76,23 @@ def hulls(slopes: SlopeRange) -> list[Corners]:
 
 def plot_printed(proved: Context) -> Drawing:
     """Draw the graph, the printed and the corrected I, and where f is proved not to go."""
-    of, corrected = proved.of, the(proved, StayingSet)
+    statement, corrected = proved.of, the(proved, StayingSet)
     drawing, axes = style.sheet(5.0)
     low, high = (float(x) for x in corrected.interval)
     _gap(axes, the(proved, Avoids))
     for colour, slopes in zip((style.BLUE, style.RED), all_of(proved, SlopeRange), strict=False):
         label = f"graph of f on {show_range(slopes.domain)}, proved"
         style.proved_polygons(axes, hulls(slopes), colour, label)
-    style.dots(axes, graph(System(of.eta, of.nu), low, high, 240), "f, sampled")
+    style.dots(axes, graph(System(statement.eta, statement.nu), low, high, 240), "f, sampled")
     axes.plot([low, high], [low, high], color=style.GREY, lw=0.6, label=r"$f(\phi) = \phi$")
     for name, interval, dashes in (
-        ("printed", of.interval, (0, (2, 2))),
+        ("printed", statement.interval, (0, (2, 2))),
         ("corrected", corrected.interval, "-"),
     ):
         label = f"{name} $I \\times I$, I = {show_range(interval)}"
         style.outline(axes, interval, interval, label, lw=0.7, ls=dashes)
     for name, sets, height, colour in (
-        ("printed", (of.left, of.right), 1.063, style.ORANGE),
+        ("printed", (statement.left, statement.right), 1.063, style.ORANGE),
         ("corrected", corrected.cells, 1.048, "0.75"),
     ):
         style.on_axis(axes, sets, height, colour, "$I_{}$", fontsize=7)

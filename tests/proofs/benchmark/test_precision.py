@@ -3,7 +3,6 @@
 import json
 import math
 import re
-import sys
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
@@ -13,10 +12,10 @@ from xml.etree import ElementTree
 import pytest
 
 from intervals import Undecided
-from proofs.benchmark import codac_server, horseshoe, peers, slopes, tasks
+from proofs.benchmark import horseshoe, peers, slopes, tasks
 from proofs.benchmark.__main__ import main
 from proofs.benchmark.curves import Curve, Diagram, Point, svg
-from proofs.benchmark.peers import CODAC, FLINT, IV, OURS, arithmetic
+from proofs.benchmark.peers import FLINT, IV, OURS, arithmetic
 
 DOMAINS = tasks.DOMAINS
 
@@ -101,49 +100,6 @@ def test_a_wrong_bracket_or_grid_is_not_proved(library):
             slopes.exclude(of, boxes, grid)
 
 
-FAKE = """
-from fractions import Fraction
-import intervals
-class Interval:
-    def __init__(self, x):
-        self.x = x if isinstance(x, intervals.Interval) else intervals.Interval(Fraction(x))
-    def _with(name):
-        def operation(self, *others):
-            found = (o.x if isinstance(o, Interval) else int(o) for o in others)
-            if others and type(others[0]).__name__ == "Jet":
-                return NotImplemented
-            return Interval(getattr(self.x, name)(*found))
-        return operation
-    for name in "add radd sub rsub mul rmul truediv rtruediv pow neg".split():
-        locals()[f"__{name}__"] = _with(f"__{name}__")
-    def __or__(self, other): return Interval(self.x.hull(other.x))
-    def lb(self): return self.x.inf
-    def ub(self): return self.x.sup
-    def mid(self): return self.x.mid
-def sin(x): return print("no reply") or Interval(x.x.sin())
-def cos(x): return Interval(x.x.cos())
-"""
-
-
-@pytest.mark.slow
-def test_codac_does_the_same_work_in_a_process_of_its_own(tmp_path, monkeypatch):
-    (tmp_path / "codac.py").write_text(FAKE)
-    (tmp_path / "codac-9.8.7.dist-info").mkdir()
-    (tmp_path / "codac-9.8.7.dist-info" / "METADATA").write_text("Name: codac\nVersion: 9.8.7\n")
-    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
-    work, of = tasks.works(4)[0], arithmetic(OURS, 53)
-    with codac_server.codac(sys.executable) as (version, bounds):
-        assert version == "9.8.7"
-        for order in (0, 1, 2):
-            pairs = zip(bounds(work, order), slopes.bounds(of, of, work, order), strict=True)
-            assert all(abs(theirs - ours) < 1e-9 for theirs, ours in pairs)
-        with pytest.raises(Undecided, match="not excluded"):
-            bounds(replace(work, grid=work.grid[-1:]), 0)
-    (tmp_path / "codac.py").write_text("raise ImportError\n")
-    with codac_server.codac(sys.executable) as absent:
-        assert absent is None
-
-
 # -- flights ------------------------------------------------------------------------------------
 
 
@@ -200,13 +156,13 @@ def test_the_smallest_run_measures_everything(tmp_path, capsys, monkeypatch):
     ):
         assert name in text
     rows = json.loads(target.read_text())["rows"]
-    found = [row["samples"] for row in rows if "points" in row["samples"]]
-    assert len(found) > 30 and all(one["points"][0]["seconds"] for one in found)
-    assert any(math.isfinite(one["order"] or math.inf) for one in found)
+    curves = [row["samples"] for row in rows if "points" in row["samples"]]
+    assert len(curves) > 30 and all(each["points"][0]["seconds"] for each in curves)
+    assert any(math.isfinite(each["order"] or math.inf) for each in curves)
     page = (out / "benchmark.md").read_text()
     linked = set(re.findall(r"`(benchmark-.*?\.svg)`", page))
     assert linked == {path.name for path in out.glob("*.svg")}
     names = ("slopes-binary64", "slopes-30-digits", "slopes-monotone", "flights")
     assert linked >= {f"benchmark-{name}.svg" for name in names}
     assert all(f"## {row['section']}\n" in page for row in rows)
-    assert {CODAC, FLINT, "scipy"} <= {row["name"] for row in rows}
+    assert {FLINT, "scipy"} <= {row["name"] for row in rows}

@@ -70,7 +70,7 @@ def test_a_point_that_is_not_real_is_no_bifurcation():
     with pytest.raises(Undecided, match="no closed form"):
         in_closed_form("fold", ("x", "r"), line)
     found = candidates("flip", ("x", "r"), line)  # r = 0: then every x has the period 2
-    assert {(str(each.values["x"]), each.found.kind) for each in found} == {
+    assert {(str(each.values["x"]), each.what.kind) for each in found} == {
         ("1", "degenerate"),
         ("-1", "degenerate"),
     }
@@ -120,7 +120,7 @@ def test_the_bouncing_ball():
 def test_a_fold_that_its_parameter_does_not_unfold_is_none():
     """The logistic map at r = 1: two fixed points cross, and neither vanishes."""
     (found,) = candidates("fold", ("x", "r"), *LOGISTIC)
-    assert found.found.kind == "transcritical" and found.values["crossing"] == 1
+    assert found.what.kind == "transcritical" and found.values["crossing"] == 1
     assert [found.values[name] for name in ("r", "critical", "speed")] == [1, -1, 0]
 
 
@@ -179,9 +179,9 @@ def test_what_a_candidate_is(condition, lines, wanted):
         for each in candidates(condition, names, *lines)
     }
     for place, kind in wanted.items():
-        assert found[place].found.kind == kind, (place, found[place].found)
+        assert found[place].what.kind == kind, (place, found[place].what)
         assert found[place].kept is (kind not in ("degenerate", "none", "undecided"))
-        assert found[place].kept or found[place].found.why
+        assert found[place].kept or found[place].what.why
 
 
 @pytest.mark.slow
@@ -197,7 +197,7 @@ def test_what_a_candidate_is(condition, lines, wanted):
 def test_roots_of_parameters(lines, names, root):
     """A root is a parameter of its own: at its numbers it is a flip of the map as it was given."""
     found = [each for each in candidates("flip", names, *lines) if each.roots]
-    assert len(found) == 1 and found[0].found.kind == "flip"
+    assert len(found) == 1 and found[0].what.kind == "flip"
     numbers = {name: x.subs({"root": root, "c": 2}) for name, x in found[0].values.items()}
     state = sympy.symbols(names[:-1])
     images = [sympy.sympify(each.split("=")[1].replace("^", "**")) for each in lines]
@@ -215,7 +215,7 @@ def test_a_root_inside_of_a_root():
     """x^2 is a root of x^4 - c x^2 - b: at any roots it is a fold of the map as it was given."""
     line = "x1 = x + a + b*x + c*x^3/3 - x^5/5"
     (found,) = candidates("fold", ("x", "a"), line)
-    assert found.found.kind == "fold" and [*found.roots] == ["root", "root2"]
+    assert found.what.kind == "fold" and [*found.roots] == ["root", "root2"]
     image = sympy.sympify(line.split("=")[1].replace("^", "**"))
     for root, root2 in (("1/2", "3/2"), ("-3", "1/7"), ("5", "-2")):
         places = {name: x.subs({"root": root, "root2": root2}) for name, x in found.values.items()}
@@ -238,7 +238,7 @@ SIDES = [  # of the parameter there are two fixed points, a cycle, a circle: on 
 def test_on_which_side_it_is_by_counting(condition, line, side):
     known = candidates(condition, ("x", "a"), line)
     (found,) = [each for each in known if each.kept and each.values["a"] == 0]
-    told = dict(meaning(found.found.kind, "a", False, found.signs.get))
+    told = dict(meaning(found.what.kind, "a", False, found.signs.get))
     assert side in told["speed"]
 
     def count(a):
@@ -262,17 +262,17 @@ def test_closed_forms_and_enclosures_agree():
         enclosed("neimark_sacker", "b", {"x": 0, "y": 0, "b": 1}, *lines)
     (found,) = candidates("fold", ("x", "a"), "x1 = x + a - x^2")
     near = enclosed("fold", "a", {"x": 0, "a": 0}, "x1 = x + a - x^2")
-    assert found.signs == near.signs and found.found.kind == "fold"
+    assert found.signs == near.signs and found.what.kind == "fold"
 
 
 @pytest.mark.slow
 def test_what_depends_on_parameters_is_a_condition():
     (flip,) = candidates("flip", ("x", "y", "a"), *HENON)
-    assert flip.found.kind == "flip" and "critical is not 0" in flip.found.where
+    assert flip.what.kind == "flip" and "critical is not 0" in flip.what.where
     (circle,) = candidates("neimark_sacker", ("x", "y", "b"), "x1 = y", "y1 = -b*x + c*y + y^3")[:1]
-    assert {"4 - trace^2 > 0", "trace is not 0", "trace + 1 is not 0"} <= {*circle.found.where}
+    assert {"4 - trace^2 > 0", "trace is not 0", "trace + 1 is not 0"} <= {*circle.what.where}
     (root,) = candidates("fold", ("x", "a"), "x1 = a + c*log(x)")
-    assert "the map is defined" in root.found.where
+    assert "the map is defined" in root.what.where
 
 
 # -- by the formulas of Kuznetsov, with numerical derivatives --------------------------------------

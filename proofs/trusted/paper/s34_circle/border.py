@@ -23,7 +23,8 @@ class Border(Conclusion):
     """The stable motion rests in every turn up to one epsilon, and at another; at a third no more.
 
     A theorem from conclusions: the set of epsilon at which it rests has a boundary point between
-    the last two, since it contains the one and not the other.
+    the last two, since it contains the one and not the other. With impacts between landing and the
+    last bounces it might rest before a later phi_s.
     """
 
     motion: SuperstableMotion
@@ -34,6 +35,8 @@ class Border(Conclusion):
         (first, reached), (single, low) = self.motion.epsilons, self.rests.epsilons
         if not first == 0 < reached <= single == low < self.passes.epsilon:
             raise Unproved("the epsilons are not in order")
+        if self.motion.boxes[1:] or self.rests.boxes[1:]:
+            raise Unproved("the motion may pass phi_s before it comes to rest")
         if not self.motion.arc == self.rests.arc == self.passes.arc:
             raise Unproved("the motions are about different oscillators")
 

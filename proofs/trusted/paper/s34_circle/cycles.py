@@ -46,7 +46,7 @@ class Cycles(Conclusion):
     @property
     def at(self) -> Place:
         """The oscillator."""
-        return self.expansion.at
+        return self.expansion.pieces.at
 
     @property
     def counts(self) -> list[tuple[int, int]]:

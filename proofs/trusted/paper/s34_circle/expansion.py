@@ -16,7 +16,6 @@ from proofs.trusted.numbers import Range, hull, increasing, show
 from proofs.trusted.paper.branches import Branch
 from proofs.trusted.paper.s34_circle.grazing import Grazing
 from proofs.trusted.paper.s34_circle.pieces import Piece, Pieces
-from proofs.trusted.parameters import Place
 from proofs.trusted.windows import BITS
 
 BRACKET = Fraction(1, 2**26)  # the width of the time brackets in the rule `expansion`
@@ -36,11 +35,6 @@ class Expansion:
             raise Unproved("a scale > 0 for each piece is expected")
         if self.rate <= 1:
             raise Unproved("f does not expand")
-
-    @property
-    def at(self) -> Place:
-        """The oscillator."""
-        return self.pieces.at
 
     @property
     def least(self) -> Fraction:
