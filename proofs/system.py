@@ -55,6 +55,7 @@ class System(Map):
         self.title = str(file.get("title", ""))
         self.notes = {key: str(file[key]) for key in ("source", "units") if key in file}
         self._turn(range(len(self._file.impacts)))
+        self._file.require_used()
 
     def _turn(self, walls: Sequence[int]) -> None:
         pairs = [*zip(walls, (*walls[1:], walls[0]), strict=True)]

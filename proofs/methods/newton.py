@@ -16,6 +16,7 @@ from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.covers import Rows
 from proofs.trusted.kernel.enclose import Box, centre_of
+from proofs.trusted.kernel.meter import DEFAULT, Exhausted, metered
 from proofs.trusted.kernel.periodic import Closing
 from proofs.trusted.kernel.zeros import Piece, krawczyk
 from proofs.trusted.numbers import Range
@@ -152,15 +153,18 @@ def _settled(sampled: Sampled, x: Floats, steps: int) -> Floats:
 def prove_orbits(file: Derivation, function: str, cycles: Sequence[Cycle]) -> list[str]:
     """Add steps `periodic-orbit` about those orbits for which they are concluded.
 
-    Raises Undecided where there is none, with the last reason.
+    Each in no more work than a check has by default. Raises Undecided where there is none, with the
+    last reason.
     """
     steps, reason = [], "no isolated one is seen"
     for cycle in cycles:
         try:
-            steps.append(_prove_orbit(file, function, cycle))
-        except Unproved as error:
+            with metered(DEFAULT):
+                steps.append(_prove_orbit(file, function, cycle))
+        except (Unproved, Exhausted) as error:
+            why = "it takes too long to prove" if isinstance(error, Exhausted) else error
             place = ", ".join(f"{value:.6g}" for value in cycle.points[0])
-            reason = f"of {len(cycles)} that are seen none, such as that through ({place}): {error}"
+            reason = f"of {len(cycles)} that are seen none, such as that through ({place}): {why}"
     if not steps:
         raise Undecided(reason)
     return steps

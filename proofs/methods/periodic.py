@@ -47,7 +47,11 @@ def prove_all_orbits(file: Derivation, function: str, period: int, box: Sequence
     """
     formula = file.map(function)
     if not isinstance(formula, Formulas) or formula.circles or formula.ranges:
-        raise Undecided("all orbits are found for formulas without angles and ranges alone")
+        raise Undecided(
+            "all orbits are found for formulas without angles and ranges alone: give parameters "
+            "one value; leave out the period of an angle, so that those that stay in one box are "
+            f"found; or ask orbits:{period}, for those that are seen"
+        )
     if period < 1:
         raise ValueError("a period is at least 1")
     orbits = Orbits(file, function, period, tuple(box))

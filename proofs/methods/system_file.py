@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -50,6 +51,12 @@ class SystemFile:
         self._motions: dict[int, list[dict[str, Any]]] = {}
         for wall in (k for k, each in enumerate(self.impacts) if "rest" in each):
             self.contact(wall)
+
+    def require_used(self) -> None:
+        """Raise GrammarError where a parameter is in no formula: it may be another's old name."""
+        used = [self.file.get(key) for key in ("motion", "periods", "impact", "end")]
+        if unused := sorted({*self.parameters} - {*re.findall(r"[A-Za-z]\w*", str(used))}):
+            raise GrammarError(f"the parameter {unused[0]} is in none of the formulas")
 
     def map(self, before: int, after: int, timed: bool = False) -> dict[str, Any]:
         """Return the flight or flow from one wall to another as a certificate has it.

@@ -423,6 +423,7 @@ impact = [{ gap = "y - sin(phi + t)", phi = "phi + t", v = "cos(phi + t)" }]
     [
         ("", "", ""),
         ("time", "clock", "no 'time'"),
+        ('"0.1"', '"0.1", c = "1"', "the parameter c is in none of the formulas"),
         ("time =", 'colour = "red"\ntime =', "unknown key 'colour'"),
         ('"2*pi"', '"2*pi + 1/10"', "respect the period of phi"),
         ("-g", "g*", "the equation of y: not a formula"),
