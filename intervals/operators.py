@@ -52,11 +52,11 @@ from intervals.branch import all_of
 from intervals.formula import Formula
 from intervals.generic import ends, meet, middle, where
 from intervals.interval import Interval
-from intervals.newton import Roots
 from intervals.systems import (
     Box,
     Function,
     Matrix,
+    Roots,
     approximate_inverse,
     components,
     dot,

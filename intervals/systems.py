@@ -8,6 +8,7 @@ matrix is a list of rows of these. A function f(x_1, ..., x_n) is a formula that
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from enum import Enum
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -21,6 +22,15 @@ from intervals.jet import Jet
 Function: TypeAlias = Callable[..., Any]
 Box: TypeAlias = Sequence[Any]
 Matrix: TypeAlias = list[list[Any]]
+
+
+class Roots(Enum):
+    """What is proved about the zeros of f in the given box."""
+
+    UNIQUE = "exactly one zero"
+    NONE = "no zero"
+    AT_LEAST_ONE = "at least one zero"
+    UNDECIDED = "not decided"
 
 
 def components(value: Any) -> list[Any]:

@@ -38,9 +38,8 @@ from intervals.formula import Formula
 from intervals.generic import meet
 from intervals.interval import Interval
 from intervals.jet import Jet
-from intervals.newton import Roots
 from intervals.operators import SystemResult, contract, krawczyk
-from intervals.systems import Function, components
+from intervals.systems import Function, Roots, components
 
 _NEAR = 2.0**-18  # of a side of the given box
 _MOST_DERIVATIVES = 8

@@ -9,6 +9,7 @@ from typing import Any
 
 import intervals
 from intervals import Interval, IntervalError, Undecided
+from intervals.cover import halves
 from proofs.trusted.kernel.covers import Rows
 from proofs.trusted.kernel.enclose import Box, centre_of, point_box
 from proofs.trusted.kernel.formulas import Formulas
@@ -106,16 +107,24 @@ def subdivide(
                 return None
         except IntervalError:
             pass
-        lengths = shares(part, scale or box)
-        axis = lengths.index(max(lengths))
-        low, high = part[axis]
-        if low == high:
-            raise Undecided("not decided at a point")
-        cut = (low + high) / 2
-        sides = [(*part[:axis], ends, *part[axis + 1 :]) for ends in ((low, cut), (cut, high))]
+        axis, *sides = halved(part, scale or box)
+        cut = sides[0][axis][1]
         return [str(axis + 1), str(cut), *(divide(side, depth + 1) for side in sides)]
 
     return divide(box, 0)
+
+
+def halved(box: Box, scale: Box) -> tuple[int, Box, Box]:
+    """Return the place of the side that is longest as a part of a scale's, and both halves of it.
+
+    Undecided where the box is a point.
+    """
+    lengths = shares(box, scale)
+    axis = lengths.index(max(lengths))
+    if not lengths[axis]:
+        raise Undecided("not decided at a point")
+    lower, upper = ((*box[:axis], half, *box[axis + 1 :]) for half in halves(box[axis]))
+    return axis, lower, upper
 
 
 def shares(box: Box, scale: Box) -> list[Fraction]:

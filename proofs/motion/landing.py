@@ -8,21 +8,18 @@ from fractions import Fraction
 from intervals import Undecided
 from proofs.motion.digits import around, middle
 from proofs.motion.system import System
-from proofs.motion.witness import HORIZON, Flights, NoImpact
+from proofs.motion.witness import HORIZON, NoImpact
 from proofs.trusted.certificate import texts
 from proofs.trusted.equations import launch_acceleration
 from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Unproved, rational
 from proofs.trusted.kernel.enclose import enclosed
 from proofs.trusted.kernel.firstzero import NoFirstZero
-from proofs.trusted.kernel.returns import Impact, Launches
-from proofs.trusted.numbers import COVER_BITS, Range
-from proofs.trusted.oscillator import PlasticMap
-from proofs.trusted.parameters import Place
+from proofs.trusted.numbers import Range, bits_for
+from proofs.trusted.oscillator import SEPARATES, PlasticMap
 
 NEWTON = 6  # steps
 _ROOM = 40  # bits
-_PRECISIONS = tuple(COVER_BITS << k for k in range(4))
 
 
 def separation_phase(system: System, bits: int) -> Range:
@@ -49,30 +46,17 @@ def separation_phase(system: System, bits: int) -> Range:
 
 
 def separation(system: System, bits: int, horizon: Fraction = HORIZON) -> dict[str, object]:
-    """Bracket the end of the sticking arc, and the flight from it, to about 2^-bits.
-
-    The window of the impact is the last piece of the times.
-    """
+    """Bracket the end of the sticking arc, from which the flight is proved to end."""
     if system.sticking_arc == "none":
         raise Undecided("the mass sticks nowhere: there is no separation phase")
-    phase, f = separation_phase(system, bits), PlasticMap(system.place)
-    times = _times(system.place, phase, horizon)
-    launches = Launches(f, *(enclosed(box, bits + _ROOM) for box in ((phase,), f.ranges)))
-    time = middle(Impact.sharp(launches, (times[-2], times[-1])).time)
-    return {"phase": texts(phase), "times": texts(times), "time": texts(around(time, bits - 10))}
-
-
-def _times(at: Place, phase: Range, horizon: Fraction) -> list[Fraction]:
-    """Return the times of the flight from the separation, in numbers of as few bits as will do."""
-    reason = ""
-    for bits in _PRECISIONS:
-        try:
-            return Flights.plastic(Motion(at, phase, bits)).times((3,), horizon)
-        except NoFirstZero as failure:
-            raise NoImpact(str(failure)) from None
-        except (Undecided, Unproved) as failure:
-            reason = str(failure)
-    raise Undecided(reason)
+    phase, f = separation_phase(system, bits), PlasticMap(system.place, horizon, SEPARATES)
+    try:
+        f.impact(enclosed((phase,), bits_for(phase)))
+    except NoFirstZero as failure:
+        raise NoImpact(str(failure)) from None
+    except Unproved as failure:
+        raise Undecided(str(failure)) from None
+    return {"phase": texts(phase)}
 
 
 def zero(motion: Motion, time: Fraction, order: int) -> Fraction:

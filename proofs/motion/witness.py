@@ -5,26 +5,23 @@ Nothing here is evidence: what a rule concludes from the times is.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from functools import cache
 from typing import NamedTuple
 
 from intervals.errors import Undecided
-from proofs.trusted.flights import Motion, whole_turns
+from proofs.trusted.flights import Motion
 from proofs.trusted.kernel import firstzero
 from proofs.trusted.kernel.arithmetic import Enclosure
 from proofs.trusted.kernel.firstzero import FirstZero
-from proofs.trusted.kernel.gaps import Gap, falls, stays_up
-from proofs.trusted.numbers import COVER_BITS, Range
+from proofs.trusted.kernel.gaps import Gap, stays_up
 
 HORIZON = Fraction(1000)
 _NOW = Fraction(0)
 _ORDERS = (0, 1, 2, 3, 4)
 _TINIEST = Fraction(1, 2**200)
 _FINEST = Fraction(1, 2**60)  # step of time
-_WIDEST, _NARROWEST = Fraction(1), Fraction(1, 1000)  # interval around a touch
-_SHRINK, _UNIT = Fraction(3, 4), Fraction(1, 1024)
 
 
 class NoImpact(Undecided):
@@ -55,7 +52,7 @@ class Flights(NamedTuple):
         return FirstZero(self, firstzero.Gap(_ORDERS, order, order, is_constant=False))
 
     def times(self, orders: Sequence[int], horizon: Fraction = HORIZON) -> list[Fraction]:
-        """Return times as `first_windows` takes them, the window of the impact at the end.
+        """Return times between which the gap is > 0, and the window of the impact at the end.
 
         orders: of which one derivative is > 0 at launch. Raises Unproved where no transversal first
         impact is proved, Undecided where the times are not found.
@@ -93,28 +90,3 @@ def closed(gap_of: Gap, times: Sequence[Fraction]) -> list[Fraction]:
         else:
             ahead.append((piece[0] + piece[1]) / 2)
     return done
-
-
-def touching_once(gap_of: Gap, order: int, touch: Range, n: int) -> list[Fraction]:
-    """Return times by which flights touch the table at `touch` alone before 2 pi n.
-
-    They are those of the rule `grazing-curve`; order: that of the first derivative of the gap that
-    is > 0 at launch. Undecided where that does not succeed.
-    """
-    begin, end = _widest(touch, lambda times: gap_of(times, 2).lo > 0)
-    last = _widest(whole_turns(n, COVER_BITS), lambda times: falls(gap_of, times))
-    if gap_of((last[1], last[1]), 0).hi >= 0:
-        raise Undecided("the impact is not proved to be over")
-    before = closed(gap_of, [first_step(gap_of, (order,))[0], begin])
-    return [*before, *closed(gap_of, [end, last[0]]), last[1]]
-
-
-def _widest(inside: Range, holds: Callable[[Range], bool]) -> Range:
-    """Return an interval around another one, as wide as one may be, on which something holds."""
-    reach = _WIDEST
-    while reach > _NARROWEST:
-        low, high = (inside[0] - reach) // _UNIT * _UNIT, -(-(inside[1] + reach) // _UNIT) * _UNIT
-        if low > 0 and holds((low, high)):
-            return low, high
-        reach *= _SHRINK
-    raise Undecided("no room around a touch or an impact")

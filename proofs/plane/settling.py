@@ -16,16 +16,14 @@ from intervals import Undecided
 from proofs.motion.many import next_impacts, separation_phases
 from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
-from proofs.motion.witness import Flights
-from proofs.plane.steps import Steps, bracket, corners, times_for
+from proofs.plane.steps import Steps, corners
 from proofs.trusted.certificate import texts
 from proofs.trusted.equations import clock, gap, launch, launch_acceleration
-from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.differential import BITS, sharp_values
 from proofs.trusted.kernel.enclose import enclosed
-from proofs.trusted.numbers import TURN, Range, hull
-from proofs.trusted.oscillator import PlasticMap
+from proofs.trusted.numbers import TURN, Range, bits_for, hull
+from proofs.trusted.oscillator import SEPARATES, PlasticMap
 from proofs.trusted.paper.beyond.attractors import AtRest
 from proofs.trusted.parameters import Place
 
@@ -244,10 +242,13 @@ def _separation(made: Steps, after: float = 0) -> tuple[str, Fraction, Range]:
     flown = next_impacts(made.box.side, etas, nus, float(phase[1]) + _LATER, _FARTHEST).times
     if not np.isfinite(flown).all():
         raise Undecided("a flight from the separation is not seen to end")
-    times = times_for(Flights.plastic(Motion(made.box, phase)), (3,), float(flown.max()))
-    time = bracket(made.box, phase, times)
-    witness = {"phase": texts(phase), "times": texts(times), "time": texts(time)}
-    return made.add("separation", witness), phase[1], (phase[0] + time[0], phase[1] + time[1])
+    f = PlasticMap(made.box, Fraction(_FARTHEST), SEPARATES)
+    try:
+        time = f.impact(enclosed((phase,), bits_for(phase))).range
+    except Unproved as error:
+        raise Undecided(str(error)) from None
+    name = made.add("separation", {"phase": texts(phase)})
+    return name, phase[1], (phase[0] + time[0], phase[1] + time[1])
 
 
 def _rounded(low: float, high: float) -> Range:

@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from intervals import Undecided
-from proofs.motion.witness import Flights
-from proofs.plane.steps import Steps, times_for
+from proofs.plane.steps import Steps
 from proofs.trusted.certificate import texts
 from proofs.trusted.equations import Clock, Launch, gap, launch_acceleration
 from proofs.trusted.kernel.arithmetic import Unproved
@@ -93,7 +92,7 @@ def _none(box: Place, n: int, needed: bool) -> list[dict[str, Any]]:
     for cuts in _CUTS:
         times: list[Fraction] = []
         if all(_early(part, times) for part in parts(box, n, cuts)):
-            return [_entry(n, cuts, sorted(set(times)))]
+            return [{"n": str(n), "cuts": str(cuts), "times": texts(sorted(set(times)))}]
     raise Undecided(f"stable orbits are not excluded, n = {n}")
 
 
@@ -113,27 +112,7 @@ def _early(part: Part, times: list[Fraction]) -> bool:
 def _stable(box: Place, n: int) -> dict[str, Any]:
     """Return what proves a stable orbit for an n."""
     for cuts in _CUTS[:2]:
-        every = list(parts(box, n, cuts))
         with suppress(Unproved):
-            if all(part.has_one(()) for part in every):
-                return _entry(n, cuts, [])
-            if all(part.contracts for part in every):
-                return _entry(n, cuts, _flight(every))
+            if all(part.has_one for part in parts(box, n, cuts)):
+                return {"n": str(n), "cuts": str(cuts)}
     raise Undecided(f"orbits are not seen to be stable all over the box, n = {n}")
-
-
-def _flight(every: list[Part]) -> list[Fraction]:
-    """Return times for the flights of some parts: those of each, with one window for all."""
-    flown = [flight_times(part) for part in every]
-    begin, end = min(times[-2] for times in flown), max(times[-1] for times in flown)
-    return sorted({begin, end, *(time for times in flown for time in times if time < begin)})
-
-
-def flight_times(part: Part) -> list[Fraction]:
-    """Return times for the flights of one part."""
-    eta = part.start.eta
-    return times_for(Flights(part.gap, [eta]), (2, 1), float(part.whole[1]))
-
-
-def _entry(n: int, cuts: int, times: list[Fraction]) -> dict[str, Any]:
-    return {"n": str(n), "cuts": str(cuts), "times": texts(times)}

@@ -66,12 +66,10 @@ class Line(NamedTuple):
     quantities: Mapping[str, Range]
 
 
-def page(
-    group: str, statement: Parameters, certificate: dict[str, Any], rows: Sequence[Line]
-) -> str:
+def page(group: str, numbers: Parameters, certificate: dict[str, Any], rows: Sequence[Line]) -> str:
     """Return the report on a group of claims: verdicts, theorems, the numbers, how to check."""
-    whose = "the paper's parameters" if statement == PAPER else "parameters of your own"
-    scope = _SCOPE.get(group, f"At {whose}.").format(at=statement.place)
+    whose = "the paper's parameters" if numbers == PAPER else "parameters of your own"
+    scope = _SCOPE.get(group, f"At {whose}.").format(at=numbers.place)
     sections = [
         f"# {_TITLES[group]}",
         f"{scope} {_HOW}",

@@ -17,7 +17,6 @@ from intervals import Undecided
 from proofs.methods.arcs import follow, thin
 from proofs.methods.derivation import Derivation
 from proofs.methods.lemmas import krawczyk, newton, require_zero, written
-from proofs.motion.witness import touching_once
 from proofs.search.derivations import Steps
 from proofs.search.evidence import FAILED, Evidence
 from proofs.search.request import Request, proving
@@ -31,10 +30,9 @@ from proofs.trusted.paper.beyond.grazing import (
     ETA,
     FLIP,
     FOLD,
-    TIME,
     GrazingCurve,
-    gap_along,
     ratio,
+    require_one_touch,
     touch,
 )
 from proofs.trusted.paper.beyond.meetings import Meeting, sign
@@ -128,7 +126,6 @@ class Curves:
             for other in (FOLD, FLIP)
             if first.beyond[other] != second.beyond[other]
         }
-        times: dict[Piece, list[Fraction]] = {}
 
         def accept(piece: Piece) -> None:
             low, high = piece.box[ETA]
@@ -136,8 +133,7 @@ class Curves:
                 low - _NEAR < point[ETA] < high + _NEAR for point in crossings.values()
             ):
                 raise Undecided("a long piece next to another curve")
-            gap_of = gap_along(n, ratio(epsilon), side, piece)
-            times[piece] = touching_once(gap_of, 1 if epsilon else 2, piece.hull(ETA)[TIME], n)
+            require_one_touch(n, epsilon, side, piece)
 
         start = newton(formula, run[0].guess, axis=ETA)[0]
         traced = follow(formula, ETA, start, run[-1].eta, step=_STEP, most=_PIECES, accept=accept)
@@ -149,7 +145,6 @@ class Curves:
             epsilon=str(epsilon),
             pieces=[each.witness for each in traced],
             points=points,
-            times=[texts(times[piece]) for piece in pieces],
         )
         self.traced.append((name, curve))
         for other, point in crossings.items():

@@ -132,7 +132,8 @@ def _exact(
 
 def _preimage(system: System, piece: Piece, image: float) -> float | None:
     """Return the phase of a piece with this image, by bisection."""
-    k = next((k for k, ends in enumerate(pairwise(piece.images)) if _is_in(image, ends)), None)
+    pairs = enumerate(pairwise(piece.images))
+    k = next((k for k, ends in pairs if min(ends) <= image <= max(ends)), None)
     if k is None:
         return None
     low, high = piece.phases[k], piece.phases[k + 1]
@@ -144,7 +145,3 @@ def _preimage(system: System, piece: Piece, image: float) -> float | None:
             return None
         low, high = (middle, high) if (impact.lifted < image) == rises else (low, middle)
     return low
-
-
-def _is_in(value: float, ends: tuple[float, float]) -> bool:
-    return min(ends) <= value <= max(ends)

@@ -9,8 +9,9 @@ from functools import partial
 from typing import NamedTuple
 
 from intervals import Undecided
-from intervals.cover import PartsExhausted, cover, halves
+from intervals.cover import PartsExhausted, cover
 from proofs.methods.derivation import Derivation
+from proofs.methods.formulas import halved
 from proofs.motion.digits import to_digits
 from proofs.motion.landing import separation_phase
 from proofs.motion.system import System
@@ -29,10 +30,11 @@ from proofs.trusted.kernel.firstzero import NoFirstZero
 from proofs.trusted.numbers import COVER_BITS, Range, bits_for, ceil_text, floor_text, hull
 from proofs.trusted.oscillator import Oscillator
 
-Box = tuple[Range, Range]  # phases x velocities
+Box = tuple[Range, ...]  # phases x velocities
 _PARTS = 128
 _ROOM = 40  # bits beyond those that are asked for
 _ZERO = (Fraction(0), Fraction(0))
+_UNIT = ((Fraction(0), Fraction(1)),) * 2
 
 
 @dataclass(frozen=True)
@@ -181,20 +183,11 @@ def _over_box(oscillator: Oscillator, box: Box) -> Rebound:
             return None
 
     try:
-        states = [state for _, state in cover([box], decide, _split, limit=_PARTS)]
+        parts = cover([box], decide, lambda part: halved(part, _UNIT)[1:], limit=_PARTS)
+        states = [state for _, state in parts]
     except PartsExhausted:
         raise Undecided(
             f"{_PARTS} parts of the box do not suffice: some of its flights graze or stick, "
             "so that F jumps"
         ) from None
     return _joined(oscillator, states)
-
-
-def _split(part: Box) -> tuple[Box, Box]:
-    """Halve the longer side of a box of states."""
-    phases, velocities = part
-    if phases[1] - phases[0] >= velocities[1] - velocities[0]:
-        low, high = halves(phases)
-        return (low, velocities), (high, velocities)
-    low, high = halves(velocities)
-    return (phases, low), (phases, high)

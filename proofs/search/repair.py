@@ -47,20 +47,20 @@ def moved_ends(ends: tuple[Fraction, ...]) -> Iterator[tuple[Fraction, ...]]:
                     yield moved
 
 
-def nearest_sets(statement: Parameters) -> Iterator[Parameters]:
+def nearest_sets(numbers: Parameters) -> Iterator[Parameters]:
     """Yield sets on which each image seems to cover I, nearest first; the slopes are kept."""
-    system = System(statement.eta, statement.nu)
-    signs = [sign for sign in statement.signs for _ in range(2)]
+    system = System(numbers.eta, numbers.nu)
+    signs = [sign for sign in numbers.signs for _ in range(2)]
 
     @cache
     def image(end: Fraction) -> tuple[float, float] | None:
         impact = next_impact(system, float(end))
         return None if impact is None else (impact.phase, impact.slope)
 
-    for moved in moved_ends((*statement.left, *statement.right)):
+    for moved in moved_ends((*numbers.left, *numbers.right)):
         if _covers(moved, signs, image):
             left, right = (moved[0], moved[1]), (moved[2], moved[3])
-            yield replace(statement, left=left, right=right, interval=(moved[0], moved[3]))
+            yield replace(numbers, left=left, right=right, interval=(moved[0], moved[3]))
 
 
 def _covers(

@@ -36,13 +36,13 @@ def proving(search: Callable[..., Evidence]) -> Callable[..., Evidence]:
 
     @wraps(search)
     def prove(
-        statement: Parameters,
+        numbers: Parameters,
         claims: Sequence[str],
         *,
         digits: int = 30,
         tell: Tell = lambda stage: None,
         **options: Any,
     ) -> Evidence:
-        return search(Request(statement, claims, digits, tell), **options)
+        return search(Request(numbers, claims, digits, tell), **options)
 
     return prove

@@ -112,18 +112,18 @@ class _Run:
 
     def suspects(self, claim: str, finest: int = 64, stride: int = 1) -> Iterator[Fraction]:
         """Yield phases that refute a claim in floating point, of a `grid` on its domains."""
-        statement = self.of
-        domains = (statement.gap,) if claim == "H4" else (statement.left, statement.right)
+        numbers = self.of
+        domains = (numbers.gap,) if claim == "H4" else (numbers.left, numbers.right)
         for phase in (phase for domain in domains for phase in grid(domain, finest, stride)):
             candidate = next_impact(self.prover.system, float(phase))
             if candidate is None:
                 continue
             image, slope = Fraction(candidate.phase), Fraction(candidate.slope)
             try:
-                guess = Impact(statement.place, phase, (slope, slope), Phase(image, image))
+                guess = Impact(numbers.place, phase, (slope, slope), Phase(image, image))
             except Unproved:  # next to phase 0
                 continue
-            if _DECIDE[claim](statement, [guess]).verdict is Verdict.REFUTED:
+            if _DECIDE[claim](numbers, [guess]).verdict is Verdict.REFUTED:
                 yield phase
 
     def correction(self) -> tuple[str, StayingSet] | None:
@@ -152,7 +152,7 @@ class _Run:
 
 
 def prove(
-    statement: Parameters,
+    numbers: Parameters,
     claims: Sequence[str] = GROUPS["horseshoe"],
     *,
     digits: int = 30,
@@ -165,26 +165,22 @@ def prove(
     H11; a repair where one of H1-H6 asked for is refuted. If floating point expects a repair, the
     steps are made on the hulls of the given and the corrected sets at once.
     """
-    run = _Run(Prover(System(statement.eta, statement.nu), digits, horizon), statement, tell)
+    run = _Run(Prover(System(numbers.eta, numbers.nu), digits, horizon), numbers, tell)
     needs_slopes, needs_gap = _NEEDS_SLOPES.intersection(claims), _NEEDS_GAP.intersection(claims)
-    sets = (
-        (statement, *islice(nearest_sets(statement), 1))
-        if needs_slopes or needs_gap
-        else (statement,)
-    )
+    sets = (numbers, *islice(nearest_sets(numbers), 1)) if needs_slopes or needs_gap else (numbers,)
     if needs_slopes and not run.prove_slopes(*sets):
-        run.prove_slopes(statement)
+        run.prove_slopes(numbers)
     escapes = needs_gap and next(run.suspects("H4", finest=8, stride=6), None) is None
     if escapes and not run.prove_gap(*sets):
-        run.prove_gap(statement)
+        run.prove_gap(numbers)
     evidence = Evidence(run.prover.steps)
     for claim in claims:
         if claim in _DECIDE:
             evidence.proofs[claim] = run.evidence(claim)
             parts = ["slopes"] * (claim in needs_slopes) + ["gap"] * (claim in needs_gap)
             evidence.notes[claim] = "; ".join(run.failures[x] for x in parts if x in run.failures)
-    if "H11" in claims and max(*statement.moran_ratios, *statement.reciprocals) < 1:
-        ratios = dict.fromkeys((statement.moran_ratios, statement.reciprocals))
+    if "H11" in claims and max(*numbers.moran_ratios, *numbers.reciprocals) < 1:
+        ratios = dict.fromkeys((numbers.moran_ratios, numbers.reciprocals))
         with suppress(*FAILED):
             evidence.proofs["H11"] = [run.prover.root(each) for each in ratios]
     refuted = [

@@ -7,8 +7,8 @@ from contextlib import suppress
 from fractions import Fraction
 from itertools import islice, product
 
-from intervals.cover import cover, halves
-from proofs.methods.formulas import shares
+from intervals.cover import cover
+from proofs.methods.formulas import halved
 from proofs.search.s33_rectangles import (
     Sets,
     image_phases,
@@ -55,14 +55,7 @@ def over(prover: ReboundProver, box: Place, sets: Sets, attempts: int) -> list[s
         return None
 
     def split(part: Place) -> list[Place]:
-        lengths = shares(part.sides, box.sides)
-        longest = lengths.index(max(lengths))
-        if not lengths[longest]:
-            raise Unproved("a point is not cut")
-        return [
-            Place(*(half if k == longest else side for k, side in enumerate(part.sides)))
-            for half in halves(part.sides[longest])
-        ]
+        return [Place(*sides) for sides in halved(part.sides, box.sides)[1:]]
 
     with prover.attempt():
         return [name for _, name in cover([box], decide, split, limit=attempts)]

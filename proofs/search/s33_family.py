@@ -15,7 +15,7 @@ from proofs.trusted.kernel.differential import Differential
 from proofs.trusted.kernel.rates import Cone, rates
 from proofs.trusted.kernel.rectangles import overlap
 from proofs.trusted.numbers import Range
-from proofs.trusted.parameters import Parameters, Place
+from proofs.trusted.parameters import Place
 
 _FAR = Fraction("0.2")  # as far as epsilon is followed, or just beyond that of the statement
 _STEP, _LEAST = Fraction("0.04"), Fraction("0.002")
@@ -29,6 +29,7 @@ def along_epsilon(prover: ReboundProver) -> tuple[list[str], str]:
     ends them, where they do not reach as far as they should.
     """
     statement, system = prover.of, System(prover.of.eta, prover.of.nu)
+    at = Place.restituting(statement.eta, statement.nu, Fraction(0))
     far = max(_FAR, (statement.epsilon or Fraction(0)) + _LEAST)
     left, right = ((float(low), float(high)) for low, high in (statement.left, statement.right))
     guess = first_guess(system, (left, right))
@@ -43,16 +44,12 @@ def along_epsilon(prover: ReboundProver) -> tuple[list[str], str]:
             now = settled(system, replace(guess, epsilon=(float(reached), float(until))), _MARGIN)
             if now is None:
                 raise Unproved("no rectangles are found")
-            names.append(proved(prover, _place(statement, (reached, until)), now))
+            names.append(proved(prover, replace(at, epsilon=(reached, until)), now))
             reached, guess = until, now if len(names) > 1 else now.split()
             continue
         step = Fraction(int(step * 4 / 5 * 1000), 1000)
         failure = f"no horseshoe is found beyond epsilon = {float(reached)}"
     return names, failure if reached < far else ""
-
-
-def _place(statement: Parameters, epsilon: Range) -> Place:
-    return Place((statement.eta, statement.eta), (statement.nu, statement.nu), epsilon)
 
 
 def proved(prover: ReboundProver, at: Place, candidate: Moving) -> str:

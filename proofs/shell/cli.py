@@ -214,39 +214,39 @@ def parameters(options: Namespace, heeded: Iterable[str], *, beyond: bool) -> Pa
     plain = replace(PAPER, **{**given, "interval": interval}, reach=None)
     if beyond:
         return replace(plain, epsilon=given.get("epsilon"), velocities=None)
-    statement = _with_sets(plain, given, "slopes" in heeded)
-    if statement.slopes != PAPER.slopes:
-        statement = replace(statement, ratios=None, printed_s0=None)
-    return replace(statement, reach=_reach(statement, reach, "reach" in heeded))
+    numbers = _with_sets(plain, given, "slopes" in heeded)
+    if numbers.slopes != PAPER.slopes:
+        numbers = replace(numbers, ratios=None, printed_s0=None)
+    return replace(numbers, reach=_reach(numbers, reach, "reach" in heeded))
 
 
-def _with_sets(statement: Parameters, given: Mapping[str, Any], is_found: bool) -> Parameters:
+def _with_sets(numbers: Parameters, given: Mapping[str, Any], is_found: bool) -> Parameters:
     """Return the numbers, at another oscillator with sets that are found unless some are given.
 
     Undecided where none are found: the paper's are not meant there.
     """
-    elsewhere = (statement.eta, statement.nu) != (PAPER.eta, PAPER.nu)
+    elsewhere = (numbers.eta, numbers.nu) != (PAPER.eta, PAPER.nu)
     if is_found and elsewhere and not {"left", "right", "interval"} & {*given}:
         from proofs.search.shifts import own_sets
 
-        sets = own_sets(statement)
+        sets = own_sets(numbers)
         if sets is None:
             raise Undecided(
-                f"no sets with a horseshoe are seen at {statement.place}: give --left and --right, "
+                f"no sets with a horseshoe are seen at {numbers.place}: give --left and --right, "
                 "or see python -m proofs explore"
             )
         return replace(sets, slopes=given.get("slopes", sets.slopes))
-    return statement
+    return numbers
 
 
-def _reach(statement: Parameters, given: Box | None, is_heeded: bool) -> Box | None:
+def _reach(numbers: Parameters, given: Box | None, is_heeded: bool) -> Box | None:
     """Return the box asked for, else the paper's, narrowed where the numbers leave less room.
 
     Where it is not heeded, there is none rather than a narrower one.
     """
-    epsilon = statement.epsilon or Fraction(0)
+    epsilon = numbers.epsilon or Fraction(0)
     if given is None:
-        room = statement.eta / 2, abs(statement.nu) / 2, min(epsilon, (1 - epsilon) / 2)
+        room = numbers.eta / 2, abs(numbers.nu) / 2, min(epsilon, (1 - epsilon) / 2)
         first, second, third = map(min, PAPER.reach or room, room)
         narrowed = first, second, third
         return narrowed if is_heeded or narrowed == PAPER.reach else None

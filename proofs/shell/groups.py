@@ -83,17 +83,17 @@ def row_of(claim: str) -> Row:
 
 
 def decide(
-    claim: str, statement: Parameters, evidence: Evidence, digits: int
+    claim: str, numbers: Parameters, evidence: Evidence, digits: int
 ) -> tuple[Line, dict[str, Any]]:
     """Decide a claim by what was proved; return its line and its certificate entry."""
     row, proof = row_of(claim), evidence.proofs.get(claim, [])
-    decision = row.decide(statement, [conclusion for _, conclusion in proof])
+    decision = row.decide(numbers, [conclusion for _, conclusion in proof])
     quantities = decision.quantities.items()
     noted = decision.verdict in (Verdict.UNDECIDED, Verdict.SIMULATED)
     note = evidence.notes.get(claim) if noted else None
     why, theorem = decision.why, decision.theorem
     truth = theorem or (decision.witness if row.own else None)
-    said = (row.words, row.says(statement), "; ".join(filter(None, (why, note))), truth)
+    said = (row.words, row.says(numbers), "; ".join(filter(None, (why, note))), truth)
     line = Line(claim, decision.verdict, *said, decision.quantities)
     return line, {
         "id": claim,
@@ -108,7 +108,7 @@ def decide(
 
 
 def certificate(
-    statement: Parameters | Place,
+    at: Parameters | Place,
     steps: Mapping[str, dict[str, Any]],
     claims: Sequence[dict[str, Any]] | Sequence[str],
 ) -> dict[str, Any]:
@@ -120,9 +120,7 @@ def certificate(
     needed = used_steps(Reader(dict(steps)), {name for proof in proofs for name in proof})
     return {
         "schema": SCHEMA,
-        "parameters": box_to_json(statement)
-        if isinstance(statement, Place)
-        else parameters_to_json(statement),
+        "parameters": box_to_json(at) if isinstance(at, Place) else parameters_to_json(at),
         "functions": {},
         "steps": {name: step for name, step in steps.items() if name in needed},
         "claims": list(claims),
@@ -131,7 +129,7 @@ def certificate(
 
 def produce(
     groups: Mapping[str, Sequence[str]],
-    statement: Parameters,
+    numbers: Parameters,
     *,
     digits: int,
     tell: Tell = lambda stage: None,
@@ -146,19 +144,19 @@ def produce(
     steps: dict[str, dict[str, Any]] = {}
     for group, claims in groups.items():
         prover = import_module(f"proofs.search.{PROVERS[group]}")
-        evidence = prover.prove(statement, claims, digits=digits, tell=tell, **options)
+        evidence = prover.prove(numbers, claims, digits=digits, tell=tell, **options)
         options = {}
         if steps.keys() & evidence.steps.keys():
             evidence = _apart(evidence, steps, group)
         steps |= evidence.steps
         for claim in claims:
-            line, entry = decide(claim, statement, evidence, digits)
+            line, entry = decide(claim, numbers, evidence, digits)
             lines.append(line)
             entries.append(entry)
-    proved = certificate(statement, steps, entries)
+    proved = certificate(numbers, steps, entries)
     first = next(iter(groups))
     file = first if first in FILES else next(name for name, ids in FILES.items() if first in ids)
-    return Made(lines, render(proved), page(file, statement, proved, lines))
+    return Made(lines, render(proved), page(file, numbers, proved, lines))
 
 
 def _apart(evidence: Evidence, earlier: Mapping[str, dict[str, Any]], group: str) -> Evidence:
@@ -178,25 +176,20 @@ def _apart(evidence: Evidence, earlier: Mapping[str, dict[str, Any]], group: str
 
 
 def wanted(
-    file: str, statement: Parameters, claims: Iterable[str] | None = None
+    file: str, numbers: Parameters, claims: Iterable[str] | None = None
 ) -> dict[str, tuple[str, ...]]:
-    """Return what is asked for of a file, by group; without a choice all that is asked at `of`:
+    """Return what is asked for of a file, by group; without a choice all that is asked there:
     beyond the paper, what is about plastic impacts, or what is about those with epsilon.
     """
-    other = {"rebounding" if statement.epsilon is None else "explore"}.intersection(
-        BEYOND, FILES[file]
-    )
+    other = {"rebounding" if numbers.epsilon is None else "explore"} & {*BEYOND} & {*FILES[file]}
+
+    def is_wanted(claim: str) -> bool:
+        return row_of(claim).is_asked(numbers) if claims is None else claim in claims
+
     groups = {
-        group: tuple(
-            x
-            for x in ids
-            if (
-                row_of(x).is_asked(statement) and group not in other
-                if claims is None
-                else x in claims
-            )
-        )
+        group: tuple(filter(is_wanted, ids))
         for group, ids in FILES[file].items()
+        if claims is not None or group not in other
     }
     return {group: ids for group, ids in groups.items() if ids}
 
@@ -223,11 +216,11 @@ def _entry(name: str, content: str) -> dict[str, Any]:
         entry["id"]: {"verdict": entry["verdict"], "statement": entry["statement"]}
         for entry in document["claims"]
     }
-    statement = parameters_from_json(Reader(document["parameters"]))
+    numbers = parameters_from_json(Reader(document["parameters"]))
     return {
         "digest": digest(content),
         "parameters": document["parameters"],
-        "made": command(name, statement, tuple(claims)),
+        "made": command(name, numbers, tuple(claims)),
         "checked": checking(name),
         "claims": claims,
     }

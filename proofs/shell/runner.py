@@ -91,23 +91,23 @@ def run(group: Group, arguments: list[str] | None = None) -> int:
     if options.figure and find_spec("matplotlib") is None:
         parser.error("--figure needs matplotlib: pip install 'impact-proofs[report]'")
     try:
-        statement = parameters(options, group.heeded, beyond=file in BEYOND)
+        numbers = parameters(options, group.heeded, beyond=file in BEYOND)
     except ValueError as error:
         parser.error(str(error))
     except Undecided as failure:
         say(f"{parser.prog}: UNDECIDED: {failure}", sys.stderr)
         return 1
-    asked = wanted(file, statement, options.only)
+    asked = wanted(file, numbers, options.only)
     if not asked:
         parser.error("all its claims are about the paper's parameters: choose some by --only")
-    if "rebounding" in asked and statement.epsilon is None:
+    if "rebounding" in asked and numbers.epsilon is None:
         parser.error(f"{' '.join(asked['rebounding'])}: with restitution: give --epsilon")
-    is_less = statement != PAPER or claims_of(file) > {x for ids in asked.values() for x in ids}
+    is_less = numbers != PAPER or claims_of(file) > {x for ids in asked.values() for x in ids}
     is_other = is_less or file in BEYOND or options.figure or bool(group.chosen(options))
     choose_folder(parser, options, is_other)
     if is_less and is_whole(options.out, file):
         parser.error(f"{options.out}/{file}.json is about more of the paper: choose another --out")
-    return _run(group, parser, options, statement, asked)
+    return _run(group, parser, options, numbers, asked)
 
 
 def _parser(group: Group) -> Parser:
@@ -134,16 +134,16 @@ def _run(
     group: Group,
     parser: Parser,
     options: Namespace,
-    statement: Parameters,
+    numbers: Parameters,
     asked: dict[str, tuple[str, ...]],
 ) -> int:
     """Prove the claims, write, print and check; return the exit status."""
     began, file, chosen = perf_counter(), group.name, group.chosen(options)
     with progress() as tell:
-        made = produce(asked, statement, digits=options.digits or PLACES, tell=tell, **chosen)
+        made = produce(asked, numbers, digits=options.digits or PLACES, tell=tell, **chosen)
         if group.seen is not None:
             tell("the circle in floating point")
-            made = made._replace(seen=group.seen(statement, options))
+            made = made._replace(seen=group.seen(numbers, options))
     seconds = perf_counter() - began
     drawn = dict(_drawn(parser, file, made)) if options.figure else {}
     with refusing(parser, options.out):

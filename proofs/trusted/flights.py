@@ -6,15 +6,11 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, partial
 
-from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import Clock, Launch, clock, gap, launch
 from proofs.trusted.kernel.arithmetic import Dual, Enclosure, pi, rational
 from proofs.trusted.kernel.gaps import Gap
-from proofs.trusted.numbers import COVER_BITS, Range, increasing
+from proofs.trusted.numbers import COVER_BITS, Range
 from proofs.trusted.parameters import Place
-
-LATEST = 10**6
-_ZERO = Fraction(0)
 
 
 @dataclass(frozen=True)
@@ -86,14 +82,6 @@ class Motion:
     def gap_of(self) -> Gap:
         """The gap as a function of time and order."""
         return partial(self.gap, self.start)
-
-
-def read_times(reader: Reader) -> tuple[Fraction, ...]:
-    """Read times 0 < t_1 < ... < t_n, n >= 2."""
-    times = reader.numbers(least=2)
-    if times[-1] > LATEST or not increasing((_ZERO, *times)):
-        raise reader.fail(f"times must increase from 0, to at most {LATEST}")
-    return times
 
 
 # -- phases ----------------------------------------------------------------------------------------

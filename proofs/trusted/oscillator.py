@@ -28,7 +28,7 @@ from proofs.trusted.equations import (
 from proofs.trusted.kernel.arithmetic import Dual, Enclosure, pi, rational
 from proofs.trusted.kernel.enclose import Box, Circle, Matrix, centre_of, point_box
 from proofs.trusted.kernel.firstzero import FirstZero, Gap
-from proofs.trusted.kernel.returns import ReturnMap
+from proofs.trusted.kernel.returns import Impact, ReturnMap
 from proofs.trusted.numbers import Range
 from proofs.trusted.parameters import Place
 
@@ -36,8 +36,9 @@ LATEST = Fraction(10**6)
 # The numbers of functions: 0 to 4 are the gap and its derivatives by the time; partial derivatives
 # by the first, second, ... of state, time and parameters come once, twice, ... _COUNT after.
 _CLOSING, _NOTHING, _LEAVING, _PHASE, _VELOCITY, _COUNT = range(5, 11)
-_LEAVES = Gap((0, 1, 2, 3), 2, _LEAVING, is_constant=False)
-_REBOUNDS = Gap((0, 1, 2), 1, _LEAVING, is_constant=False)
+LEAVES = Gap((0, 1, 2, 3), 2, _LEAVING, is_constant=False)
+SEPARATES = Gap((0, 1, 2, 3, 4), 3, 3, is_constant=False)
+REBOUNDS = Gap((0, 1, 2), 1, _LEAVING, is_constant=False)
 _IS_POSSIBLE = Gap((_CLOSING, _NOTHING, _NOTHING), 0, _CLOSING, is_constant=True)
 
 
@@ -166,7 +167,7 @@ class Oscillator(PaperMap):
         """Take ranges of eta > 0, of nu, of one sign, and of epsilon from 0 to 1."""
         roots, side = (0, _CLOSING, _PHASE, _VELOCITY), 1 if sides[1][0] > 0 else -1
         equations = Equations("F", ("phi", "gamma"), roots, side, sides)
-        super().__init__(equations, 2, (_REBOUNDS, _IS_POSSIBLE), latest=latest)
+        super().__init__(equations, 2, (REBOUNDS, _IS_POSSIBLE), latest=latest)
 
     @property
     def definition(self) -> str:
@@ -196,10 +197,14 @@ class PlasticMap(PaperMap):
         "; all its impacts are transversal, and after each the mass leaves the table at once"
     )
 
-    def __init__(self, at: Place, latest: Fraction = LATEST) -> None:
-        """Take the oscillators."""
+    def __init__(self, at: Place, latest: Fraction = LATEST, leaves: Gap = LEAVES) -> None:
+        """Take the oscillators; leaves: the gap, with the order by which flights leave the table.
+
+        `SEPARATES`: of launches where the acceleration is >= 0 and increases with the phase, as it
+        does with the time.
+        """
         equations = Equations("f", ("phi",), (0, _PHASE), at.side, at.sides[:2])
-        super().__init__(equations, 1, (_LEAVES,), latest=latest)
+        super().__init__(equations, 1, (leaves,), latest=latest)
 
     @property
     def definition(self) -> str:
@@ -212,6 +217,10 @@ class PlasticMap(PaperMap):
         eta, nu = impact.launches.parameters
         start = launch(self.formulas.side, eta, nu, x[0])
         return [[slope(start, clock(eta, impact.time), impact.fall)]]
+
+    def landing(self, x: Sequence[Enclosure]) -> Impact:
+        """Enclose when flights end, and gap_t then."""
+        return self._impact(x)
 
     def window(self, x: Sequence[Enclosure]) -> Range:
         """Return times low < high: gap > 0 on (0, low], gap_t < 0 between, gap < 0 at the end."""

@@ -7,7 +7,7 @@ from functools import reduce
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from intervals.newton import Roots
+from intervals.systems import Roots
 from tests.intervals.oracle import exponent, pi_bounds, round_down, round_up, ulp
 from tests.once import examples
 

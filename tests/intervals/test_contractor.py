@@ -11,8 +11,8 @@ from intervals import Interval, IntervalArray, reverse
 from intervals.branch import shaved
 from intervals.contractor import contract, contracted
 from intervals.formula import Formula
-from intervals.newton import Roots
 from intervals.reverse import quotient, root
+from intervals.systems import Roots
 from intervals.zero_finder import zeros
 from tests.intervals.boxes import for_all
 

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from intervals import DomainError, Interval
 from intervals.array import IntervalArray
 from intervals.generic import meet
-from intervals.newton import Roots
 from intervals.operators import krawczyk, newton_system
+from intervals.systems import Roots
 from tests.intervals.boxes import check_claim, for_all, from_roots
 from tests.intervals.oracle import sqrt_down, sqrt_up, ulp
 
@@ -73,6 +73,8 @@ CASES = [  # equations, a box, the outcomes that are right
     # the zeros are a segment: the image is thin in one variable and whole in the other
     (lambda x, y: (x, 0 * y), [UNIT, UNIT], POSSIBLE),
     (lambda x, y: (0 * y, x), [UNIT, UNIT], POSSIBLE),
+    # a triple zero inside, and at an end
+    *((lambda x: x * x * x, [ends], SIGNS) for ends in ((-1, 2), (0, 1), (-1, 0), (0, 0))),
     # double zeros
     *(
         (lambda x, y: (x.sqr() + y.sqr() - 1, y - 1), [side, ("0.5", "1.5")], POSSIBLE)

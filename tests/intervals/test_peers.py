@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 import intervals
 from intervals import Interval, IntervalArray, TightArray, convert
 from intervals.errors import DomainError
-from intervals.newton import Roots
 from intervals.rounding import MAX
+from intervals.systems import Roots
 from tests.intervals.boxes import for_all
 from tests.intervals.test_numpy import same
 

@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from intervals import DomainError, Formula, Interval, rootn, search
 from intervals.array import IntervalArray
 from intervals.branch import clusters, evaluated, one_box, split
-from intervals.newton import Roots
 from intervals.search import Sign, range_of, sign_of
+from intervals.systems import Roots
 from intervals.zero_finder import _examined, zeros
 from tests.intervals import oracle
 from tests.intervals.boxes import for_all, from_roots, holds, horner

@@ -13,7 +13,7 @@ from time import process_time
 from typing import Any, NamedTuple
 
 from intervals import Interval, zeros
-from intervals.newton import Roots
+from intervals.systems import Roots
 
 FILE = Path(__file__).with_suffix(".txt")
 SMALLEST = 2.0**-52  # sub-boxes, in proportion to the given box

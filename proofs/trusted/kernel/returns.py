@@ -22,6 +22,7 @@ from proofs.trusted.numbers import Range
 
 LATEST = Fraction(1024)
 _ENOUGH = 1024  # moves by a smaller part of the width do not pay
+_HALVINGS = 4  # of a window, to prove that the gap falls
 _COARSE = 64  # bits, in which a window is looked for first
 _REMEMBERED, _AROUND = 256, 16  # impacts; of these, the last, in whose boxes others are looked for
 
@@ -316,7 +317,7 @@ def _newton(launches: Launches, t: Enclosure, is_plain: bool, *starts: int) -> E
     of parameters alone (mean value theorem).
     """
     gap, rate = launches.flight.gaps[0], launches.on(launches.flight.gaps[0].orders[1:2], t)[0]
-    if rate.hi >= 0 and (rate := fall(launches.gap_of, t.range)).hi >= 0:
+    if rate.hi >= 0 and (rate := fall(launches.gap_of, t.range, _HALVINGS)).hi >= 0:
         raise Unproved(f"the impact is not proved transversal, {shown(launches.states)}")
     slopes = launches.flight.slopes(gap.orders[0], launches.wide)[:-1]
     count = sum(k < launches.flight.state for k in launches.wide)  # of the states

@@ -173,4 +173,4 @@ def test_coqc_accepts_maps_of_the_plane(capsys, tmp_path, name):
     assert formal.main([str(path), "--out", str(tmp_path / "out"), "--json", "-"]) == 0
     answer = json.loads(capsys.readouterr().out)
     assert [each["name"] for each in answer["theorems"]] == ["graph1", "entropy1"]
-    assert set(answer["axioms"]) == coqc.REALS and answer["other_axioms"] is None
+    assert set(answer["axioms"]) == coqc.REALS and answer["other_axioms"] == []

@@ -7,17 +7,15 @@ from mpmath import mp, mpf
 
 from intervals import Undecided
 from proofs.benchmark.peers import FLINT, arithmetic
-from proofs.motion.simulate import next_impact
 from proofs.motion.system import System
 from proofs.motion.witness import Flights
-from proofs.plane.steps import impact_times
 from proofs.search.image import Image, image
 from proofs.stress.truth import BITS, graze
 from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.enclose import enclosed
 from proofs.trusted.kernel.firstzero import NoFirstZero
-from proofs.trusted.kernel.gaps import first_windows
+from proofs.trusted.kernel.gaps import brackets, falls
 from proofs.trusted.numbers import COVER_BITS
 from proofs.trusted.oscillator import PlasticMap
 from tests.proofs.trusted.paper import reference
@@ -120,11 +118,10 @@ def test_times_next_to_grazing_are_what_the_rules_prove(exponent, side):
     flown = flights(system, point, bits=4 * COVER_BITS)
     times = flown.times((2,))
     assert times == sorted(set(times)) and times[0] > 0
-    assert first_windows(flown.gap_of, times, 2) == (((times[-2], times[-1]),), True)
+    window = times[-2], times[-1]
+    assert falls(flown.gap_of, window, 4) and brackets(flown.gap_of, window)
     own = PlasticMap(system.place).window(enclosed(((point, point),), 256))
     assert own[0] < times[-1] and times[-2] < own[1]
-    with pytest.raises(Unproved, match="negative at the last time"):
-        first_windows(flown.gap_of, times[:-1], 2)
 
 
 @pytest.mark.parametrize(
@@ -135,15 +132,3 @@ def test_times_next_to_grazing_are_what_the_rules_prove(exponent, side):
 def test_where_no_first_impact_is_proved_there_are_no_times(low, high, error):
     with pytest.raises(error):
         flights(PAPER, Fraction(low), Fraction(high)).times((2,))
-
-
-def test_a_window_is_narrowed_to_the_impacts_of_all_launches():
-    ends = Fraction("1.11"), Fraction("1.12")
-    window = flights(PAPER, *ends).times((2,))[-2:]
-    low, high = impact_times(flights(PAPER, *ends, COVER_BITS + 16).gap_of, window, 16)
-    times = [next_impact(PAPER, float(phase)).time for phase in ends]
-    assert window[0] < low < min(times) and max(times) < high < window[1]
-    last = (window[1] - window[0]) / 2**16
-    gap_of = flights(PAPER, *ends, 2 * COVER_BITS).gap_of
-    signs = [gap_of((x, x), 0) for x in (low, low + last, high, high - last)]
-    assert signs[0].lo > 0 >= signs[1].lo and signs[2].hi < 0 <= signs[3].hi

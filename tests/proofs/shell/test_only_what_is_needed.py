@@ -15,7 +15,6 @@ from proofs import horseshoe
 from proofs.__main__ import main
 from proofs.methods.basin import Mesh
 from proofs.methods.derive import simplest
-from proofs.motion.witness import Flights
 from proofs.report import page
 from proofs.shell import groups
 from proofs.shell.groups import row_of
@@ -29,8 +28,7 @@ from proofs.trusted.parameters import PAPER
 from proofs.trusted.verify import check
 from tests.proofs.trusted.corpus import path_of
 
-TIMES = Flights.times
-WATCHED = gap, slope, return_map_derivative, TIMES, cover, simplest, Mesh.grow, Tape.evaluate
+WATCHED = gap, slope, return_map_derivative, cover, simplest, Mesh.grow, Tape.evaluate
 STEPS = rules.find_rule
 FLIGHTS = {gap: 2400, cover: 6, slope: 25}
 SLOPES = {gap: 1200, slope: 40}
@@ -44,7 +42,7 @@ NEEDED = [  # group, claims, the most calls in a proof, steps of the certificate
     ("horseshoe", "H4", FLIGHTS, 1),
     ("horseshoe", "H1", SLOPES, 2),
     ("horseshoe", "H1 H3 H6 H11 H16", SLOPES, 4),  # steps that several need are made once
-    ("circle", "G1", {gap: 160, TIMES: 1}, 1),  # an orbit of period 2: no cells of the circle
+    ("circle", "G1", {gap: 160}, 1),  # an orbit of period 2: no cells of the circle
     ("horseshoe", "N2", FLOWN, 2),  # no plastic map
 ]
 

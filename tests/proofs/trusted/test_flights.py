@@ -16,7 +16,7 @@ from proofs.trusted.kernel.covers import Covers, HSet, LocalMap
 from proofs.trusted.kernel.enclose import enclosed
 from proofs.trusted.kernel.firstzero import NoFirstZero
 from proofs.trusted.kernel.flight import read_flight
-from proofs.trusted.kernel.gaps import brackets, fall, falls, first_windows, open_windows, stays_up
+from proofs.trusted.kernel.gaps import brackets, fall, falls, stays_up
 from proofs.trusted.kernel.returns import Launches
 from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.parameters import Place
@@ -55,16 +55,6 @@ def test_a_chord_bounds_from_below_less_the_bend():
     assert stays_up(cosine, bent, F("0.13") * unit)
 
 
-def test_a_bend_on_a_longer_interval_may_do():
-    """cos'' <= 1 at all times; on [-1, 1] it is below -0.54."""
-    unit, around = 2**BITS, (F(-1), F(1))
-    ever = cosine((F(-1), F(7)), 2)
-    assert ever.hi == unit
-    assert stays_up(lambda time, order: pytest.fail("not needed"), around, F("0.51") * unit, ever)
-    assert stays_up(cosine, around, F("0.49") * unit, ever)  # its own bend is looked at
-    assert not stays_up(cosine, (F("2.6"), F("3.6")), F("0.12") * unit, ever)
-
-
 @pytest.mark.parametrize(
     ("time", "whether"),
     [
@@ -83,10 +73,6 @@ def test_what_holds_for_a_part_of_the_launches_is_not_enough():
     assert brackets(spread, (F(1), F(2)))
     assert not brackets(spread, (F("1.5"), F(2)))  # cos 1.5 = 0.07
     assert not brackets(spread, (F(1), F("1.65")))  # cos 1.65 = -0.08
-    with pytest.raises(Unproved, match="negative at the last time"):
-        open_windows(spread, [F(1), F("1.65")])
-    with pytest.raises(Unproved, match="leave the table"):  # (t (1 - t))' is < 0 for t > 1/2
-        first_windows(parabola, [F("0.75"), F("1.1")], 1)
 
 
 @pytest.mark.parametrize("time", [("0.1", "0.2"), ("0.5", "3"), ("2", "5"), ("0", "7")])
@@ -111,32 +97,6 @@ def test_falling_may_need_halving():
     assert not falls(wide, time)
     assert falls(wide, time, 4)
     assert not falls(wide, (F("-0.1"), F("2.8")), 8)
-
-
-def test_windows_are_where_nothing_is_excluded():
-    times = [F(k, 8) for k in range(1, 15)]
-    ((low, high),) = open_windows(cosine, times)
-    assert low < TURN / 4 < high <= F(14, 8)
-    with pytest.raises(Unproved, match="negative at the last time"):
-        open_windows(cosine, times[:-2])
-
-
-def test_the_first_window_is_transversal_if_the_gap_falls_to_the_end():
-    fine = [F(k, 16) for k in range(1, 19)]
-    windows, transversal = first_windows(parabola, fine, 1)
-    assert transversal and windows[0][0] < 1 < windows[0][1]
-    with pytest.raises(Unproved, match="leave the table"):
-        first_windows(parabola, fine, 2)  # t (1 - t) is bent down
-    assert first_windows(parabola, fine, 2, 1) == (windows, True)
-    coarse = [F(1, 16), F(9, 8)]  # gap' > 0 at first, so that it is no fall
-    assert not first_windows(parabola, coarse, 1)[1]
-
-
-def test_a_second_crossing_is_not_hidden():
-    """cos falls, rises and falls again by 8: the window reaches from the first zero to the last."""
-    times = [F(1, 8), F(1, 4), F(1, 2), F(1), F(3, 2), F(2), F(4), F(5), F(6), F(7), F(8)]
-    windows, transversal = first_windows(lambda t, k: cosine(t, k), times, 0)
-    assert windows[0][0] <= TURN / 4 and not transversal
 
 
 @pytest.mark.parametrize("turns", [-3, 0, 1, 20_000])

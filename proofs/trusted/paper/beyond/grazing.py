@@ -23,18 +23,19 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import Launch, clock, gap, sincos
-from proofs.trusted.flights import read_times
+from proofs.trusted.kernel import firstzero
 from proofs.trusted.kernel.arcs import Arc, an_arc
 from proofs.trusted.kernel.arithmetic import Dual, Enclosure, Unproved, pi, rational
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import Box, centre_of, integer
+from proofs.trusted.kernel.firstzero import FirstZero
 from proofs.trusted.kernel.formulas import Formulas, read_formulas
-from proofs.trusted.kernel.gaps import Gap, falls, first_windows
+from proofs.trusted.kernel.gaps import Gap, falls
 from proofs.trusted.kernel.operations import sqrt
 from proofs.trusted.kernel.zeros import Piece
 from proofs.trusted.numbers import COVER_BITS, Range, ceil_text, floor_text, show, show_range
@@ -44,6 +45,7 @@ FOLD, FLIP = "fold", "flip"
 _MOST_PERIODS = 1000
 _POINT_BITS, _PLACES = 128, 15
 _HALVINGS = 6
+_LATER = 6  # than T, at most, all flights are proved below the table
 Number = Any
 
 
@@ -153,38 +155,49 @@ class GrazingCurve(Conclusion):
 
 
 def grazing_curve(_: Context, reader: Reader) -> GrazingCurve:
-    """Rule `grazing-curve`: {n, epsilon, pieces, points, times}.
+    """Rule `grazing-curve`: {n, epsilon, pieces, points}.
 
     Hypotheses: pieces and points are those of an arc over eta of zeros of `touch`, see `an_arc`,
-    p < 1 and 0 < t < T. For each piece, and all (eta, p) in it: gap' > 0 up to the first of its
-    times (gap'' > 0 for epsilon = 0), and all pieces between them are closed, as in `separation`,
-    but two windows; gap'' > 0 in the first, T is inside the second one, and gap' < 0 there.
-    Conclusion: lemma 2, with relative acceleration > 0 at t_G.
+    p < 1 and 0 < t < T. For each piece, and all (eta, p) in it, the gap is proved > 0 up to a time
+    after T but in two windows (see `FirstZero.windows`; gap' > 0 at first, gap'' > 0 for epsilon =
+    0): gap'' > 0 in the first, T is inside the second one, and gap' < 0 there. Conclusion: lemma 2,
+    with relative acceleration > 0 at t_G.
 
-    Proof. gap = gap' = 0 at t_G, in (0, T), so t_G is in no closed piece, nor in the second window:
+    Proof. gap = gap' = 0 at t_G, in (0, T), so t_G is in a window, not in the second one:
     it is in the first, and the only zero there. The derivative of F by p and t is regular, so t_G
     is no multiple of 2 pi.
     """
-    n_of, epsilon_of, pieces_of, points_of, times_of = reader.fields(
-        "n", "epsilon", "pieces", "points", "times"
-    )
+    n_of, epsilon_of, pieces_of, points_of = reader.fields("n", "epsilon", "pieces", "points")
     n, epsilon = integer(n_of, 1, _MOST_PERIODS), epsilon_of.number()
     if not 0 <= epsilon < 1:
         raise epsilon_of.fail("0 <= epsilon < 1 is expected")
     arc = an_arc(touch(n, epsilon), ETA, pieces_of, points_of)
     side = -1 if 2 * n * arc.ends[0] // 1 % 2 else 1
-    found = GrazingCurve(n, epsilon, side, arc)
-    for piece, each in zip(arc.pieces, times_of.items(*[len(arc.pieces)] * 2), strict=True):
-        _touches_once(found, piece, read_times(each))
-    return found
+    for piece in arc.pieces:
+        require_one_touch(n, epsilon, side, piece)
+    return GrazingCurve(n, epsilon, side, arc)
 
 
-def _touches_once(of: GrazingCurve, piece: Piece, times: Sequence[Fraction]) -> None:
-    gap_of = gap_along(of.n, ratio(of.epsilon), of.side, piece)
-    whole, touched = (pi(COVER_BITS) * (2 * of.n)).range, piece.hull(ETA)[TIME]
+class _Flights(NamedTuple):
+    """Flights of all (eta, p) of a piece."""
+
+    gap_of: Gap
+    states: list[Enclosure]
+
+    def on(self, roots: Sequence[int], t: Enclosure) -> list[Enclosure]:
+        """Enclose derivatives of the gap."""
+        return [self.gap_of(t.range, order) for order in roots]
+
+
+def require_one_touch(n: int, epsilon: Fraction, side: int, piece: Piece) -> None:
+    """Raise Unproved unless what the rule `grazing-curve` asks of a piece is proved."""
+    gap_of, order = gap_along(n, ratio(epsilon), side, piece), 1 if epsilon else 2
+    whole, touched = (pi(COVER_BITS) * (2 * n)).range, piece.hull(ETA)[TIME]
     if not 0 < touched[0] <= touched[1] < whole[0]:
         raise Unproved("the touch is not proved to be before the impact")
-    windows, _ = first_windows(gap_of, times, 1 if of.epsilon else 2)
+    flights = _Flights(gap_of, [Enclosure.of(*piece.box[ETA], COVER_BITS)])
+    search = FirstZero(flights, firstzero.Gap((0, 1, 2, 3), order, order, is_constant=False))
+    windows = list(search.windows(whole[1] + _LATER))
     if len(windows) != 2:
         raise Unproved("another touch on the way is not excluded")
     around, last = windows

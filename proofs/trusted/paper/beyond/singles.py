@@ -45,19 +45,21 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 from proofs.trusted.certificate import Reader
-from proofs.trusted.equations import Launch, clock, gap, launch_acceleration
-from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, pi
+from proofs.trusted.equations import Launch, launch_acceleration
+from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, pi, rational
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import integer
-from proofs.trusted.kernel.gaps import first_windows
+from proofs.trusted.kernel.firstzero import FirstZero
 from proofs.trusted.kernel.operations import sqrt
 from proofs.trusted.numbers import COVER_BITS, Range, increasing
+from proofs.trusted.oscillator import LEAVES, REBOUNDS, Flown
 from proofs.trusted.paper.beyond.grazing import ratio
 from proofs.trusted.parameters import Place
 
 MOST_PERIODS = 100
 _MOST_PARTS = 1000
+_LATER = 6  # than T, at most, all flights are proved below the table
 _BITS = COVER_BITS
 Number = Any
 
@@ -141,11 +143,15 @@ class Part:
         """Enclose the state after its impact; Unproved where that is not defined all over."""
         return launched(self, self._numbers, self._turn, self.solution)
 
-    def gap(self, time: Range, order: int = 0) -> Enclosure:
-        """Enclose a derivative of the gap on an interval of times."""
-        now = clock(self._numbers.eta, Enclosure.of(*time, _BITS))
-        found: Enclosure = gap(self.start, now, order)
-        return found
+    @property
+    def states(self) -> list[Enclosure]:
+        """All that flights depend on, but for what `start` has from it."""
+        return [self._numbers.eta]
+
+    def on(self, roots: Sequence[int], t: Enclosure) -> list[Enclosure]:
+        """Enclose functions of the flights at times, by their numbers."""
+        flown = Flown(None, None, self.start)
+        return [flown.function(root, t) for root in roots]
 
     @property
     def whole(self) -> Range:
@@ -165,7 +171,8 @@ class Part:
             return True
         if self.at.epsilon is None and launch_acceleration(self.start).hi <= 0:
             return True
-        return any(t < self.whole[0] and self.gap((t, t)).hi < 0 for t in times)
+        early = (rational(t, _BITS) for t in times if t < self.whole[0])
+        return any(self.on((0,), t)[0].hi < 0 for t in early)
 
     @property
     def contracts(self) -> bool:
@@ -173,14 +180,16 @@ class Part:
         delta, above, below, flips = self.solution
         return bool(delta.lo > 0 < above.lo and below.lo > 0 > flips.hi)
 
-    def has_one(self, times: Sequence[Fraction]) -> bool:
-        """Whether there is a stable motion, by its flight; without times by lemma 4."""
+    @property
+    def has_one(self) -> bool:
+        """Whether there is a stable motion, by lemma 4 or by its flight."""
         if not self.contracts:
             return False
-        if len(times) < 2:
-            return self._is_short and launch_acceleration(self.start).lo > 0
-        (*_, window), transversal = first_windows(self.gap, times, 1, 2)
-        return transversal and window[0] < self.whole[0] and self.whole[1] < window[1]
+        if self._is_short:
+            return bool(launch_acceleration(self.start).lo > 0)
+        search = FirstZero(self, LEAVES if self.at.epsilon is None else REBOUNDS)
+        begin, end = search.window(self.whole[1] + _LATER)
+        return begin < self.whole[0] and self.whole[1] < end
 
     @property
     def _is_short(self) -> bool:
@@ -278,42 +287,42 @@ class StableSingles(Conclusion):
 
 
 def stable_singles(context: Context, reader: Reader) -> StableSingles:
-    """Rule `stable-singles`: {most, stable: [{n, cuts, times}], none: [{n, cuts, times}]}.
+    """Rule `stable-singles`: {most, stable: [{n, cuts}], none: [{n, cuts, times}]}.
 
     The box is cut at multiples of 1/(2 n), each part evenly into `cuts`. For n in `stable` it is in
     one part, and in all that this is cut into delta > 0, v > 0, F < 0, and nothing is hit before T:
-    with times as in `separation` (gap'' > 0 up to the first of them, or gap' > 0 after a rebound),
-    T being inside of the window; without times by lemma 4. For each other n up to `most`,
+    by lemma 4, or as T is inside of the window of a transversal first impact that is found (see
+    `FirstZero`). For each other n up to `most`,
     where `none` does not name it without cuts and times, there are in each part no motions, by
     lemma 3 or as delta < 0; or F > 0; or, for plastic impacts, launch acceleration <= 0; or gap < 0
     at one of the times, in (0, T). Conclusion: `StableSingles`. Proof. Lemmas 1 to 4.
     """
     most_of, stable_of, none_of = reader.fields("most", "stable", "none")
     most, at = integer(most_of, 1, MOST_PERIODS), context.oscillators
-    stable, none = (_read(entries, most) for entries in (stable_of, none_of))
+    stable, none = _read(stable_of, most), _read(none_of, most, "times")
     if stable.keys() & none.keys():
         raise none_of.fail("a number of periods that is named as stable, too")
     for n in range(1, most + 1):
         cuts, times = (stable if n in stable else none).get(n, (1, ()))
         every = list(parts(at, n, cuts))
         if n in stable:
-            if len({part.k for part in every}) > 1 or not all(x.has_one(times) for x in every):
+            if len({part.k for part in every}) > 1 or not all(part.has_one for part in every):
                 raise Unproved(f"a stable motion is not proved for n = {n}")
         elif not all(part.has_none(times) for part in every):
             raise Unproved(f"stable motions are not excluded for n = {n}")
     return StableSingles(at, most, tuple(sorted(stable)))
 
 
-def _read(entries: Reader, most: int) -> dict[int, tuple[int, tuple[Fraction, ...]]]:
-    """Read cuts and times for some n, each once."""
+def _read(entries: Reader, most: int, *more: str) -> dict[int, tuple[int, tuple[Fraction, ...]]]:
+    """Read cuts, and perhaps times, for some n, each once."""
     found = {}
     for entry in entries.items(0, most):
-        n_of, cuts_of, times_of = entry.fields("n", "cuts", "times")
+        n_of, cuts_of, *times_of = entry.fields("n", "cuts", *more)
         n = integer(n_of, 1, most)
         if n in found:
             raise n_of.fail("named twice")
-        times = times_of.numbers(0)
+        times = tuple(time for each in times_of for time in each.numbers(0))
         if not increasing((Fraction(0), *times)):
-            raise times_of.fail("times must increase from 0")
+            raise entry.fail("times must increase from 0")
         found[n] = integer(cuts_of, 1, _MOST_PARTS), times
     return found

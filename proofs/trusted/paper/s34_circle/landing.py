@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.equations import Launch, launch_acceleration
-from proofs.trusted.flights import Motion, lifted, read_times, whole_turns
+from proofs.trusted.flights import Motion, lifted, whole_turns
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, pi, rational
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.gaps import brackets, first_windows
+from proofs.trusted.kernel.enclose import enclosed
 from proofs.trusted.numbers import (
-    MAX_BITS,
     TURN,
     Phase,
     Phases,
@@ -25,8 +24,8 @@ from proofs.trusted.numbers import (
     floor_text,
     increasing,
     show_range,
-    within,
 )
+from proofs.trusted.oscillator import SEPARATES, PlasticMap
 from proofs.trusted.parameters import Place
 from proofs.trusted.windows import BITS, clear, level
 
@@ -107,56 +106,33 @@ class Separation(Conclusion):
 
 
 def separation(context: Context, reader: Reader) -> Separation:
-    """Rule `separation`: {phase: [l, u], times 0 < t_1 < ... < t_n, time}.
+    """Rule `separation`: {phase: [l, u]}.
 
-    Hypotheses: the launch acceleration A is < 0 at l, > 0 at u. After the launches in [l, u]
-    gap''' > 0 on [0, t_1]; the pieces [t_j, t_(j+1)] are closed but for some last ones, on which
-    gap' < 0; `time` lies in these, with gap > 0 at its lower, gap < 0 at its upper end. A piece of
-    width w is closed if min(gap(t_j), gap(t_(j+1))) > w^2/8 max(0, sup gap'') on it, and gap < 0 at
-    t_n. Conclusion: `Separation`.
+    Hypotheses: the launch acceleration A is < 0 at l, > 0 at u; transversal first impacts after the
+    launches in [l, u] are found, gap''' being > 0 at first (see `FirstZero`). Conclusion:
+    `Separation`.
 
     Proof. A = side (nu (1 - eta^2) sin(phi) - eta^2). At launch gap''' is A', since gap'' =
     A(phi + t) - eta^2 gap: so A' > 0 on [l, u], and A has one zero phi_s there, one more on the
     circle, at pi - phi_s, and is < 0 on the arc between them that ends at phi_s. It falls through 0
     at the start of that arc, so that the mass sticks there too, and rises through 0 at phi_s. After
-    a launch in [phi_s, u] gap = gap' = 0 <= gap'' at first: gap > 0 on (0, t_1], on closed pieces,
-    and until it falls through its first zero, in `time`.
+    a launch in [phi_s, u] gap = gap' = 0 <= gap'' at first: gap > 0 as long as gap''' has been,
+    and until it falls through its first zero.
     """
-    phase_of, times_of, time_of = reader.fields("phase", "times", "time")
-    phase, times, at = Phase(*phase_of.range()), read_times(times_of), context.place
+    (phase_of,) = reader.fields("phase")
+    phase, at = Phase(*phase_of.range()), context.place
     bits = bits_for(phase)
     low, high = (launch_acceleration(Motion(at, (x, x), bits).start) for x in phase)
     if not low.hi < 0 < high.lo:
         raise Unproved("the launch acceleration does not change sign in the bracket")
-    motion = Motion(at, phase, bits)
-    windows, is_transversal = first_windows(motion.gap_of, times, 3)
-    if not is_transversal:
-        raise Unproved("an earlier impact is not excluded, or the gap is not proved to fall to it")
-    time = time_of.range()
-    thin = bracketed(motion, windows[0], time)
+    flight = PlasticMap(at, leaves=SEPARATES).landing(enclosed((phase,), bits))
+    time, speed = flight.time.range, -flight.fall
     quarters = phase[0] / pi(bits).range[0] * 2
     ends = (pi(bits) * ((quarters - 1) // 2 * 2 + 1)).range  # of the arc, added: an odd half turn
     impact = phase[0] + time[0], phase[1] + time[1]
     turns = 1 + (impact[1] - phase[0]) // whole_turns(1, bits)[0]
     start, arrival = (ends[0] - phase[1], ends[1] - phase[0]), lifted(impact, -turns, bits)
-    speed: Enclosure = -thin.gap_of(time, 1)
     return Separation(at, start, phase, time, turns, arrival, speed.range)
-
-
-def bracketed(motion: Motion, window: Range, time: Range) -> Motion:
-    """Return the motion, at the precision of a bracket in which all launches have their impact.
-
-    In the window of a transversal impact the gap falls through its only zero, so gap > 0 at the
-    lower end and gap < 0 at the upper one bracket it.
-    """
-    if not within(time, window):
-        raise Unproved("a bracket leaves the window of the first impact")
-    bits = bits_for(time)
-    for factor in (1, 2, 4):  # a slow impact needs more
-        inner = replace(motion, bits=min(factor * bits, MAX_BITS))
-        if any(brackets(gap_of, time) for gap_of in (inner.gap_of, inner.sharp_gap)):
-            return inner
-    raise Unproved("a bracket does not have the signs +, - at its ends")
 
 
 # -- landing on it ---------------------------------------------------------------------------------

@@ -118,6 +118,11 @@ def test_of_three_variables_attraction_alone_is_said():
     assert [said(size) for size in ("1/2", "9/10", "1", "2")] == ["attracting"] * 2 + [None] * 2
 
 
+def test_a_determinant_around_one_decides_nothing():
+    zero, wide = (Enclosure.of(*map(Fraction, x), 64) for x in (("0", "0"), ("0.9", "1.1")))
+    assert _stability([[zero, -wide], [wide, zero]]) is None
+
+
 @pytest.mark.parametrize(
     ("example", "field", "value", "reason"),
     [

@@ -111,6 +111,7 @@ def test_images_that_pass_phase_0():
     assert not vague.misses(cell("5.1", "5.2"))
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     "changes",
     [
@@ -278,6 +279,7 @@ def test_a_motion_that_sticks_at_once_and_one_that_does_later():
     assert sticking_motion(before, steps).cells == found.cells
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("arrival", "parts"),
     [
@@ -317,6 +319,7 @@ def test_a_motion_that_sticks_once(end):
         assert find(claim).decide(PAPER, [end]).verdict is Verdict.UNDECIDED
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("arrival", "parts", "end"),
     [
@@ -408,6 +411,7 @@ def test_sets_may_pass_phase_0():
             affine(*ends, "6.25", "6.35")
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("arrival", "parts", "beyond", "landing"),
     [

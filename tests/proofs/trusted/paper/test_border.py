@@ -10,12 +10,11 @@ from proofs.trusted.certificate import Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s34_circle.border import Border
-from proofs.trusted.paper.s34_circle.persistence import Passes, SuperstableMotion
+from proofs.trusted.paper.s34_circle.persistence import Cell, Passes, SuperstableMotion, passes
 from proofs.trusted.parameters import PAPER
 from tests.oracles.judge import oracle
 from tests.proofs.trusted.paper.steps import apply, evidence, known_of
 
-pytestmark = pytest.mark.slow
 RESTS, PASSES = "superstable-motion-2", "superstable-motion-3"
 
 
@@ -23,6 +22,7 @@ def known():
     return known_of("persistence")
 
 
+@pytest.mark.slow
 def test_what_is_said():
     decision = find("G15").decide(PAPER, [x for _, x in evidence("persistence").proofs["G15"]])
     assert find("G15").own and decision.verdict.value == "VERIFIED"
@@ -76,6 +76,7 @@ def thrown(**changes):
     return {**witness, "separation": "arc", "cells": [cell], **changes}
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("change", "reason"),
     [
@@ -92,6 +93,7 @@ def test_what_flies_beyond_phi_s_has_landed_on_the_arc(change, reason):
         apply("superstable-motion", thrown(), {"arc": replace(arc, **change(arc))})
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("epsilons", "reason"),
     [
@@ -105,3 +107,16 @@ def test_all_that_has_landed_must_fly_beyond_phi_s(epsilons, reason):
     cells = [{"epsilon": each, "bounces": []} for each in epsilons]
     with pytest.raises((Unproved, Malformed), match=reason):
         apply("superstable-motion", thrown(cells=cells), {"arc": known()["separation-1"]})
+
+
+def test_all_are_in_flight_at_phi_s():
+    """Launched 1/2 before it as fast as the table moves at most; or ever more slowly, or later."""
+    arc, cell, one = known()["separation-1"], Cell((Fraction("0.9"),) * 2, ()), Fraction(1)
+    before = arc.phase[0] - Fraction(1, 2)
+    assert passes(arc, ((before, before), (one, one)), cell, 64).bounces == 0
+    for phases, slowest, reason in (
+        ((before, before), one / 1000, "in flight"),
+        ((before, arc.phase[1] + 1), one, "begins after"),
+    ):
+        with pytest.raises(Unproved, match=reason):
+            passes(arc, (phases, (slowest, one)), cell, 64)

@@ -13,16 +13,16 @@ import pytest
 from mpmath import diff, mpf
 
 from proofs.motion.many import next_impacts
-from proofs.motion.witness import Flights
 from proofs.plane.horseshoe import propose
 from proofs.plane.settling import settles, stays_stable, sticks
-from proofs.plane.steps import times_for
 from proofs.trusted.certificate import Malformed, Reader
 from proofs.trusted.flights import Motion
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.coverings import EntropyBound
-from proofs.trusted.kernel.gaps import first_windows
+from proofs.trusted.kernel.enclose import enclosed
+from proofs.trusted.numbers import COVER_BITS
+from proofs.trusted.oscillator import SEPARATES, PlasticMap
 from proofs.trusted.paper.beyond.attractors import AllStick, AtRest, Leaves, NeverSticks
 from proofs.trusted.paper.beyond.returning import ReturningMotion, StickingMotion
 from proofs.trusted.parameters import PAPER, Place
@@ -340,17 +340,13 @@ def test_a_cell_that_passes_phase_0_is_no_set_in_order():
 def test_flights_just_after_the_separation(low, holds):
     """phi_s is 6.0454239...: gap'' is 0 there at first, and no bound from below later on."""
     here = PAPER.place
-    phases = F("6.04543"), F("6.06")
-    times = times_for(Flights.plastic(Motion(here, phases)), (2, 3), 26.0)
-    assert times[0] > F(1, 4)  # gap'' > 0 is seen for less
-    motion = Motion(here, (F(low), phases[1]))
-    assert motion.gap_of((F(0), times[0]), 2).lo <= 0 < motion.gap_of((F(0), times[0]), 3).lo
+    x = enclosed(((F(low), F("6.06")),), COVER_BITS)
+    begin, end = PlasticMap(here, leaves=SEPARATES).window(x)
+    for phase in (F("6.04543"), F("6.05"), F("6.06")):
+        time = reference.first_impact(mpf("0.2121"), mpf("-0.2"), mpf(float(phase)))[0]
+        assert begin < exact(time) < end
     if holds:
-        ((begin, end),), transversal = first_windows(motion.gap_of, times, 2, 3)
-        assert transversal
-        for phase in (F(low), F("6.05"), phases[1]):
-            time = reference.first_impact(mpf("0.2121"), mpf("-0.2"), mpf(float(phase)))[0]
-            assert begin < exact(time) < end
+        assert PlasticMap(here).window(x)
     else:
-        with pytest.raises(Unproved, match="leave the table"):
-            first_windows(motion.gap_of, times, 2)
+        with pytest.raises(Unproved, match="right after launch"):
+            PlasticMap(here).window(x)

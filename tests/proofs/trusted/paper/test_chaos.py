@@ -202,6 +202,7 @@ def test_an_orbit_of_period_three_goes_on_in_its_own_order():
     assert inside.bracketed and "with one point" not in inside.sentence
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("cells", "reason"),
     [
@@ -354,6 +355,15 @@ def test_a_long_flight_is_proved_by_prover_and_checker():
             apply("branch", {**witness, "turn": turn})
 
 
+def test_at_the_end_of_a_window_the_gap_is_negative_for_all_launches(small):
+    """Between the impacts of the first and of the last launch of a piece some are still to come."""
+    witness = small[0][first(small[0], "branch")]["witness"]
+    apply("branch", witness)
+    between = F(sum(true_map(phase)[0] for phase in witness["cuts"][:2]) / 2)
+    with pytest.raises(Unproved, match="negative at an end"):
+        apply("branch", {**witness, "ends": [str(between), *witness["ends"][1:]]})
+
+
 def test_what_is_remembered_of_a_branch_is_not_said_of_another(small):
     branch = small[2].branches[0]
     phase, time = min(branch._proved)
@@ -411,6 +421,7 @@ GRAPH_LIES = {
 }
 
 
+@pytest.mark.every
 @pytest.mark.parametrize("lie", GRAPH_LIES)
 def test_a_forged_graph_is_refused(small, graphs, lie):
     steps, name, _ = small

@@ -194,8 +194,7 @@ ACCEPTED = {  # what may be done to which field, in some places; all else is ref
     "turned nudged moved put_beside; nodes moved put_alike; exponent nudged; growth nudged "
     "put_to_1; test dropped swapped doubled_in_place added nudged moved put_beside put_to_0 "
     "put_to_1; bits moved",
-    "separation": "phase tighter narrowed looser nudged; times dropped nudged moved put_beside "
-    "put_to_1; time looser nudged moved",
+    "separation": "phase tighter narrowed looser nudged",
     "lands": "cuts dropped nudged moved put_beside put_to_0",
     "never-impacts": "phases tighter narrowed nudged put_beside",
     "absorption": "never other_type dropped emptied; lands swapped turned; cells dropped swapped "

@@ -169,6 +169,7 @@ LIES = [  # that edits of all fields do not tell, in test_edits
 ]
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(("rule", "change", "reason"), LIES, ids=[x[2] for x in LIES])
 def test_a_forged_step_is_refused(steps, known, rule, change, reason):
     forged = copy.deepcopy(steps)
@@ -357,6 +358,7 @@ def test_images_longer_than_the_circle_are_refused(known):
 # -- what conclusions refuse -----------------------------------------------------------------------
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("place", "field"), [(1, "turn"), (1, "beyond"), (9, "turn"), (11, "turn")]
 )

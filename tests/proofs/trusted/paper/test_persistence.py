@@ -138,6 +138,7 @@ def motion(largest="1/4", eta=PAPER.eta):
     return SuperstableMotion(arc, epsilons, ((ends[2], ends[4]),), rest=Fraction(5))
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     "change",
     [
@@ -205,8 +206,8 @@ def widen(ends, by):
 
 
 EDITS = [
-    ((*FLIGHT, "times"), lambda times: [times[0], *times[-2:]]),
-    ((*FLIGHT, "times"), lambda times: times[-2:]),
+    ((*FLIGHT, "phase"), lambda ends: [ends[1], add("1/1000")(ends[1])]),
+    ((*FLIGHT, "phase"), lambda ends: widen(ends, "1/2")),
     ((*CHATTER, "box"), lambda box: [widen(ends, "1/2") for ends in box]),
     ((*CHATTER, "cells"), lambda cells: [cells[0], *cells[-1:]]),
     ((*CHATTER, "cells"), lambda cells: [*cells, cells[-1]]),
@@ -217,6 +218,7 @@ EDITS = [
 ]
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(("path", "change"), EDITS)
 def test_an_edited_witness_is_refused(path, change):
     with pytest.raises((Unproved, Malformed)):
@@ -254,6 +256,7 @@ def test_a_bounce_that_leaves_the_arc_is_refused():
         derive(edited(short(), (*CELL, "bounces", 0, 1), add("1")))
 
 
+@pytest.mark.every
 @pytest.mark.parametrize(
     ("of", "changes"),
     [
