@@ -80,13 +80,15 @@ class FirstZero:
 
     def window(self, latest: Fraction) -> Range:
         """Return times low < high, gap > 0 on (0, low], gap_t < 0 between, gap(high) < 0."""
-        for low, high, end in self._steps(int(latest) << self.bits):
+        end = None
+        for low, high, end in self._steps(Enclosure.of(latest, latest, self.bits).hi):
             if end is not None and end.hi < 0:
                 return Enclosure(low, high, self.bits).range
-        raise self._none_before(latest)
+        raise self._none_before(latest, end is None)
 
-    def _none_before(self, latest: Fraction) -> NoFirstZero:
-        return NoFirstZero(f"no impact is proved before the time {show(latest)}, {self._place}")
+    def _none_before(self, latest: Fraction, is_up: bool) -> Unproved:
+        kind = NoFirstZero if is_up else Unproved
+        return kind(f"no impact is proved before the time {show(latest)}, {self._place}")
 
     def windows(self, latest: Fraction) -> Iterator[Range]:
         """Yield times low < high: gap > 0 before and between them, and < 0 at the end of the last.
@@ -96,12 +98,12 @@ class FirstZero:
         """
         widths = (x.hi - x.lo for x in self.launches.states)
         self._shortest = max(self._shortest, min(self._first, max(widths) >> _SHARP))
-        high, end = 0, int(latest) << self.bits
+        high, end = 0, Enclosure.of(latest, latest, self.bits).hi
         for _ in range(_MOST_WINDOWS):
             low = self._up(high, end)
-            high = self._decided(low, end)
+            before, high = high, self._decided(low, end)
             if high > end:
-                raise self._none_before(latest)
+                raise self._none_before(latest, not before and low == end)
             yield Enclosure(low, high, self.bits).range
             if self._at(high).hi < 0:
                 return

@@ -14,9 +14,12 @@ from proofs.trusted.kernel.arithmetic import Enclosure, Unproved, rational
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.covers import Covers, HSet, LocalMap
 from proofs.trusted.kernel.enclose import enclosed
+from proofs.trusted.kernel.firstzero import NoFirstZero
 from proofs.trusted.kernel.flight import read_flight
 from proofs.trusted.kernel.gaps import brackets, fall, falls, first_windows, open_windows, stays_up
 from proofs.trusted.kernel.returns import Launches
+from proofs.trusted.oscillator import PlasticMap
+from proofs.trusted.parameters import Place
 from proofs.trusted.rules import find_rule
 from tests.proofs.trusted.kernel.systems import OSCILLATOR
 
@@ -300,3 +303,20 @@ def test_relations_of_the_plastic_map_say_so_too():
     relation = find_rule("covers")(Context(known=known), Reader(witness | faces | {"turns": ["4"]}))
     for conclusion in (relation, graph(relation)):
         assert conclusion.sentence.startswith("for f at (eta, nu) = (0.2121, -0.2): N")
+
+
+@pytest.mark.parametrize(
+    ("phases", "horizon", "is_none"),
+    [
+        (("1.13",) * 2, 24, True),
+        (("1.13",) * 2, "25.2317694082590049861307", False),
+        (("1.19", "1.2"), 40, False),
+    ],
+)
+def test_no_impact_is_said_where_none_is_proved_alone(phases, horizon, is_none):
+    """That after 1.13 is just before that horizon; some after [1.19, 1.2] are at 27, some at 57."""
+    f = PlasticMap(Place.plastic(Fraction("0.2121"), Fraction("-0.2")), Fraction(horizon))
+    for impacts in (f.impact, lambda x: list(f.possible_values(x))):
+        with pytest.raises(Unproved) as failure:
+            impacts([Enclosure.of(*map(Fraction, phases), BITS)])
+        assert isinstance(failure.value, NoFirstZero) is is_none
