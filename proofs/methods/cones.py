@@ -1,8 +1,9 @@
-"""Cone conditions on the arrows of a graph: boxes, bounds on derivatives, trees that show them."""
+"""Cone conditions on the arrows of a graph: forms, and boxes of what stays, with their trees."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from fractions import Fraction
 from itertools import product
 from math import log2
@@ -10,15 +11,15 @@ from typing import Any
 
 from intervals import Undecided
 from proofs.methods.derivation import Derivation
-from proofs.methods.divisions import holds, part_of_tree, scale_of
-from proofs.methods.formulas import Tree, shares, subdivide
+from proofs.methods.divisions import holds, scale_of
+from proofs.methods.formulas import shares, subdivide
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.arithmetic import Unproved
-from proofs.trusted.kernel.cones import Form, check_cone
+from proofs.trusted.kernel.cones import Form, derivatives, difference, positive_definite
 from proofs.trusted.kernel.covers import LocalMap, beyond, cube
 from proofs.trusted.kernel.enclose import Box, enclosed
 from proofs.trusted.kernel.graph import Graph
-from proofs.trusted.numbers import Range, hull
+from proofs.trusted.numbers import hull
 
 _BITS = 64
 _MOST_BOXES = 128  # of a tree
@@ -43,15 +44,13 @@ def add_cone(file: Derivation, graph: str, forms: Sequence[Form] = ()) -> str:
     step = graph_of(file, graph)
     scales = [scale_of(cover.local, cube(len(step.nodes[0].centre))) for cover in step.covers]
     for form, parts in product(forms or _forms(step), _PARTS):
-        try:
+        with suppress(Undecided, Unproved):
             relations = [
-                _cone_relation(cover.local, form, scale, parts)
+                _relation(cover.local, form, scale, parts)
                 for cover, scale in zip(step.covers, scales, strict=True)
             ]
-        except Undecided:
-            continue
-        witness = {"forms": [texts(form)] * len(step.nodes), "relations": relations}
-        return file.add("cone", {"graph": graph, **witness})
+            witness = {"forms": [texts(form)] * len(step.nodes), "relations": relations}
+            return file.add("cone", {"graph": graph, **witness})
     raise Undecided("no form of the cone condition is found")
 
 
@@ -78,8 +77,8 @@ def _forms(graph: Graph) -> list[Form]:
     return [(Fraction(1), *(-weight for weight in weights)), *usual]
 
 
-def _cone_relation(local: LocalMap, form: Form, scale: Box, parts: int) -> dict[str, Any]:
-    """Return what `cone` is told about a relation: a box, bounds on its derivatives, trees.
+def _relation(local: LocalMap, form: Form, scale: Box, parts: int) -> dict[str, Any]:
+    """Return what `cone` is told about a relation: a box, and a tree.
 
     [-1, 1]^n is halved until each part is mapped out of the target, or derivatives on it are
     enclosed that obey the condition, the part being small enough. The box is around these parts.
@@ -88,9 +87,7 @@ def _cone_relation(local: LocalMap, form: Form, scale: Box, parts: int) -> dict[
     smallest = max(shares(whole, scale)) / parts
 
     def decided(part: Box) -> bool:
-        try:
-            check_cone(_entries(local, part), form, form, (_BITS,))
-        except Unproved:
+        if not _obeys(local, part, form):
             return holds(local, part, lambda values: any(map(beyond, values)))
         if is_small := max(shares(part, scale)) <= smallest:
             inner.append(part)
@@ -98,41 +95,12 @@ def _cone_relation(local: LocalMap, form: Form, scale: Box, parts: int) -> dict[
 
     tree = subdivide(whole, decided, scale, _MOST_BOXES)
     box = tuple(map(hull, zip(*inner, strict=True))) if inner else whole
-    own, boxes = part_of_tree(tree, box)
-    rows = [_entries(local, part) for part in boxes]
-    bounds = tuple(_rounded(hull(sides)) for sides in zip(*rows, strict=True))
-    return {
-        "box": list(map(texts, box)),
-        "outside": tree,
-        "jacobian": list(map(texts, bounds)),
-        "tree": own,
-        "matrices": _cone_tree(bounds, form),
-    }
+    return {"box": list(map(texts, box)), "tree": tree}
 
 
-def _entries(local: LocalMap, box: Box) -> Box:
-    """Enclose the derivatives on a box, row by row."""
-    rows = local.jacobian(enclosed(box, _BITS))
-    return tuple(entry.range for row in rows for entry in row)
-
-
-def _rounded(side: Range) -> Range:
-    """Return an interval around another one, with few digits."""
-    low, high = side
-    unit = Fraction(1, 2**20)
-    while 1024 * unit < high - low:
-        unit *= 2
-    return (low // unit - 1) * unit, (high // unit + 2) * unit
-
-
-def _is_cone(matrices: Box, form: Form) -> bool:
-    try:
-        check_cone(matrices, form, form, (_BITS,))
-    except Unproved:
-        return False
-    return True
-
-
-def _cone_tree(jacobian: Box, form: Form) -> Tree:
-    scale = ((Fraction(0), Fraction(1)),) * len(jacobian)  # derivatives are compared as they are
-    return subdivide(jacobian, lambda part: _is_cone(part, form), scale, _MOST_BOXES)
+def _obeys(local: LocalMap, box: Box, form: Form) -> bool:
+    """Whether derivatives on a box, where they are enclosed, obey the condition."""
+    with suppress(Unproved):
+        matrices = derivatives(local, box, _BITS)
+        return positive_definite(difference(matrices, form, form, _BITS))
+    return False

@@ -77,18 +77,3 @@ def _sharp(map_: Map, x: list[Enclosure]) -> list[Enclosure]:
     with suppress(Unproved):
         return sharp_values(map_, x)
     return map_.values(x)
-
-
-def part_of_tree(tree: Tree, box: Box) -> tuple[Tree, list[Box]]:
-    """Return the part of a tree that divides a smaller box, and its leaves."""
-    if tree is None:
-        return None, [box]
-    axis, cut = int(tree[0]) - 1, Fraction(tree[1])
-    low, high = box[axis]
-    if high <= cut or cut <= low:
-        return part_of_tree(tree[2 if high <= cut else 3], box)
-    sides = [(*box[:axis], ends, *box[axis + 1 :]) for ends in ((low, cut), (cut, high))]
-    (place, first), (other, second) = (
-        part_of_tree(part, side) for part, side in zip(tree[2:], sides, strict=True)
-    )
-    return [*tree[:2], place, other], first + second

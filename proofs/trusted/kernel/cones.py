@@ -14,21 +14,20 @@ from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.covers import HSet, LocalMap, beyond, cube
 from proofs.trusted.kernel.enclose import (
-    PRECISIONS,
     Box,
     Matrix,
     decide,
     enclosed,
     leaves,
     read_box,
-    shown,
     tried,
 )
 from proofs.trusted.kernel.graph import Graph
 from proofs.trusted.kernel.operations import Enclosures
-from proofs.trusted.numbers import within
+from proofs.trusted.numbers import hull, within
 
 Form = tuple[Fraction, ...]
+_MOST_PARTS = 256  # of bounds on derivatives
 
 
 @dataclass(frozen=True)
@@ -69,15 +68,14 @@ class Conjugacy(Conclusion):
 
 
 def cone(context: Context, reader: Reader) -> Conjugacy:
-    """Rule `cone`: {graph, forms, relations: [{box, outside, jacobian, tree, matrices}, ...]}.
+    """Rule `cone`: {graph, forms, relations: [{box, tree}, ...]}.
 
     forms: for each h-set of the graph numbers d_1, ..., d_n, the form Q(q) = sum d_i q_i^2 in its
     coordinates. Hypotheses, for each relation N => M in the graph's order, with f in coordinates,
-    a box R in [-1, 1]^n and bounds J on n^2 derivatives, row by row: on each leaf of `outside`, a
-    subdivision of [-1, 1]^n, that is not in R, some |f_j| > 1; on each leaf of `tree`, which
-    divides R, an enclosure of f' lies in J; on each leaf of `matrices`, which divides J,
-    D^T Q_M D - Q_N is positive definite for all matrices D. For a map with angles, on each leaf of
-    `outside` no other turns than those of the relation bring an image into M.
+    a box R in [-1, 1]^n and a tree that divides [-1, 1]^n: on each leaf that is not in R, some
+    |f_j| > 1; D^T Q_M D - Q_N is positive definite for all matrices D in J, the hull of enclosures
+    of f' on the parts of leaves in R. J is halved where that is needed. For a map with angles, on
+    each leaf no other turns than those of the relation bring an image into M.
 
     Conclusion: each bi-infinite path is followed by exactly one full orbit x_(m+1) = G(x_m) of
     G = F^k. If all d_i > 0, each infinite path is followed by exactly one point, and G is uniformly
@@ -115,33 +113,28 @@ def cone(context: Context, reader: Reader) -> Conjugacy:
     forms = [form.numbers(n, n) for form in forms_of.items(count, count)]
     relations = relations_of.items(len(of.covers), len(of.covers))
     for step, (i, j), relation in zip(of.covers, of.edges, relations, strict=True):
-        jacobian = _derivatives(step.local, relation, n)
-        _, _, _, _, matrices = relation.fields("box", "outside", "jacobian", "tree", "matrices")
-        for leaf in leaves(matrices, jacobian):
-            check_cone(leaf, forms[i], forms[j])
+        require_cone(step.local, _staying(step.local, relation, n), forms[i], forms[j])
     positive = {sum(entry > 0 for entry in form) for form in forms}
     is_regular = len(positive) == 1 and all(entry for form in forms for entry in form)
     return Conjugacy(of, max(positive) if is_regular else None)
 
 
-def _derivatives(local: LocalMap, relation: Reader, n: int) -> Box:
-    """Return bounds on f', proved on a box that contains all of [-1, 1]^n mapped into it."""
-    box_of, outside, jacobian_of, tree, _ = relation.fields(
-        "box", "outside", "jacobian", "tree", "matrices"
-    )
-    box, jacobian = read_box(box_of, n), read_box(jacobian_of, n * n)
-    if not _inside(box, cube(n)):
-        raise box_of.fail("the box leaves [-1, 1]^n")
+def _staying(local: LocalMap, relation: Reader, n: int) -> list[Box]:
+    """Return parts of a box that contains all of [-1, 1]^n that is proved to be mapped into it."""
+    box_of, tree = relation.fields("box", "tree")
+    box, inner = read_box(box_of, n), list[Box]()
+    if not _inside(box, cube(n)) or not _has_interior(box):
+        raise box_of.fail("a box with interior points is expected, which never leaves [-1, 1]^n")
     lifted = replace(local, target=_unit(n))
-    for leaf in leaves(outside, cube(n)):
+    for leaf in leaves(tree, cube(n)):
         if not _inside(leaf, box):
-            decide(local, leaf, lambda found: any(map(beyond, found)))
+            decide(local, leaf, lambda values: any(map(beyond, values)))
         if local.turns:
             decide(lifted, leaf, partial(_turns_so, local))
-    for leaf in leaves(tree, box):
-        if not any(_inside(entries, jacobian) for entries in tried(partial(_entries, local, leaf))):
-            raise Unproved(f"the derivatives are not proved within bounds on {shown(leaf)}")
-    return jacobian
+        part = tuple((max(x[0], y[0]), min(x[1], y[1])) for x, y in zip(leaf, box, strict=True))
+        if _has_interior(part):  # such parts cover the box
+            inner.append(part)
+    return inner
 
 
 def _unit(n: int) -> HSet:
@@ -159,7 +152,18 @@ def _turns_so(local: LocalMap, values: list[Enclosure]) -> bool:
     return True
 
 
-def _entries(local: LocalMap, box: Box, bits: int) -> Box:
+def require_cone(local: LocalMap, parts: Sequence[Box], before: Form, after: Form) -> None:
+    """Prove D^T Q_M D - Q_N positive definite for all D in the hull of f' on parts of a box."""
+
+    def is_proved(bits: int) -> bool:
+        rows = [derivatives(local, part, bits) for part in parts]
+        return _is_cone(tuple(map(hull, zip(*rows, strict=True))), before, after, bits)
+
+    if not any(tried(is_proved)):
+        raise Unproved("the cone condition is not proved for all derivatives in a box")
+
+
+def derivatives(local: LocalMap, box: Box, bits: int) -> Box:
     """Enclose the entries of f' on a box, row by row."""
     return tuple(entry.range for row in local.jacobian(enclosed(box, bits)) for entry in row)
 
@@ -168,18 +172,28 @@ def _inside(one: Box, two: Box) -> bool:
     return all(map(within, one, two))
 
 
-def check_cone(
-    matrices: Box, before: Form, after: Form, precisions: Sequence[int] = PRECISIONS
-) -> None:
-    """Prove D^T Q_M D - Q_N positive definite for all D within bounds."""
-    found = tried(
-        lambda bits: positive_definite(_difference(matrices, before, after, bits)), precisions
-    )
-    if not any(found):
-        raise Unproved(f"the cone condition is not proved for derivatives in {shown(matrices)}")
+def _has_interior(box: Box) -> bool:
+    return all(low < high for low, high in box)
 
 
-def _difference(matrices: Box, before: Form, after: Form, bits: int) -> Matrix:
+def _is_cone(matrices: Box, before: Form, after: Form, bits: int) -> bool:
+    """Whether that is proved for all D within bounds; the widest is halved again and again."""
+    waiting = [matrices]
+    for _ in range(_MOST_PARTS):
+        if not waiting:
+            return True
+        part = waiting.pop()
+        if not positive_definite(difference(part, before, after, bits)):
+            k = max(range(len(part)), key=lambda k: part[k][1] - part[k][0])
+            low, high = part[k]
+            middle = (low + high) / 2
+            waiting += (
+                (*part[:k], half, *part[k + 1 :]) for half in ((low, middle), (middle, high))
+            )
+    return not waiting
+
+
+def difference(matrices: Box, before: Form, after: Form, bits: int) -> Matrix:
     """Enclose D^T Q_M D - Q_N, on and below the diagonal; squares are those of one number."""
     n, numbers = len(before), Enclosures(bits)
     entries = enclosed(matrices, bits)

@@ -20,7 +20,7 @@ from proofs.trusted.verify import Rejected, Report, check
 from tests.proofs.trusted.edits import Document, Edit, Mutation, drop, edited, put, swap, walk
 
 Found = Iterator[tuple[str, tuple[Any, ...], Edit]]
-TREES = "tree", "support", "outside", "matrices"
+TREES = "tree", "support"
 VERDICTS = "VERIFIED", "REFUTED", "UNDECIDED", "CONDITIONAL", "verified", ""
 TURN = Fraction("6.283185307")
 FORM = {"other type", "missing", "unknown field", "unknown", "no tree", "no formula"}
@@ -43,7 +43,6 @@ HARMLESS = {  # fields; what may be done to them, and why
     "centre": (ANY, "another point that the operator is about"),
     "matrix": (ANY, "another preconditioner"),
     "forms": (ANY, "other cones"),
-    "jacobian": (ANY, "other bounds, proved again"),
     "vector": (ANY, "another weight of the sets"),
     "radius": (ANY, "another box around a point"),
     "point": (ANY, "another point next to the orbit"),

@@ -171,8 +171,7 @@ def long_entropy():
 def wide_cone():
     made = json.loads(text("henon_horseshoe"))
     cone = next(s["witness"] for s in made["steps"].values() if s["rule"] == "cone")
-    low, high = map(Fraction, cone["relations"][0]["jacobian"][0])
-    cone["relations"][0]["matrices"] = balanced(low, high, 14)
+    cone["relations"][0]["tree"] = balanced(Fraction(-1), Fraction(1), 14)
     cone["forms"] = [["1", f"-{LONG}"], ["1", "-1/3"]]
     return made
 

@@ -169,8 +169,7 @@ def test_sets_that_are_the_same_on_the_circle_are_no_two():
         proved(FOUR, steps | {"g": ("graph", {"covers": [f"c{way}" for way in arrows]})})
 
 
-CONE = {"box": [["-1", "1"]], "outside": None, "jacobian": [["3", "5"]], "tree": None,
-        "matrices": None}  # fmt: skip
+CONE = {"box": [["-1", "1"]], "tree": None}
 
 
 @pytest.mark.every
