@@ -227,7 +227,7 @@ ACCEPTED = {  # what may be done to which field, in some places; all else is ref
     "doubled_in_place added",
     "grazing-meets": "box tighter looser widened nudged put_beside; matrix doubled_in_place nudged "
     "moved put_beside put_to_0",
-    "stable-singles": "most moved; cuts moved put_alike put_to_1",
+    "stable-singles": "most moved put_to_1; n put_alike put_to_1; cuts moved put_alike put_to_1",
 }
 
 
