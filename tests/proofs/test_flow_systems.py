@@ -117,4 +117,4 @@ def test_what_cannot_be_followed_is_a_sentence():
     van_der_pol = file_of("van-der-pol")
     motion = {"x": {"equation": "x'' = x^2 + x'^2 + 1", "start": ["a", "0"]}}
     with pytest.raises(Undecided, match=r"are followed up to the time 1\.00\d+"):
-        System({**van_der_pol, "motion": motion}).impact(a="1")
+        System({**van_der_pol, "parameters": {}, "motion": motion}).impact(a="1")
