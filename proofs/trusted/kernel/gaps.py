@@ -52,18 +52,21 @@ def fall(gap_of: Gap, time: Range, halvings: int = 0) -> Enclosure:
     direct = gap_of(time, 1)
     first, last = (gap_of((end, end), 1).range for end in time)
     low, high = mean_values(first, last, gap_of(time, 2).range, time[1] - time[0])
-    slope = direct.meet(type(direct).of(low, high, direct.bits))
-    if slope.hi < 0 or not halvings:
-        return slope
+    found = direct.meet(type(direct).of(low, high, direct.bits))
+    if found.hi < 0 or not halvings:
+        return found
     middle = (time[0] + time[1]) / 2
-    halves = (time[0], middle), (middle, time[1])
-    left, right = (fall(gap_of, half, halvings - 1) for half in halves)
-    return type(direct)(min(left.lo, right.lo), max(left.hi, right.hi), direct.bits)
+    one, two = (fall(gap_of, half, halvings - 1) for half in ((time[0], middle), (middle, time[1])))
+    return type(direct)(min(one.lo, two.lo), max(one.hi, two.hi), direct.bits)
 
 
 def falls(gap_of: Gap, time: Range, halvings: int = 0) -> bool:
     """Whether gap' < 0 on an interval of times, which may be halved again and again."""
-    return fall(gap_of, time, halvings).hi < 0
+    if fall(gap_of, time).hi < 0:
+        return True
+    middle = (time[0] + time[1]) / 2
+    halves = (time[0], middle), (middle, time[1])
+    return halvings > 0 and all(falls(gap_of, half, halvings - 1) for half in halves)
 
 
 def open_windows(gap_of: Gap, times: Sequence[Fraction]) -> list[Range]:
