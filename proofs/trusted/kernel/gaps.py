@@ -47,26 +47,26 @@ def brackets(gap_of: Gap, time: Range) -> bool:
 def fall(gap_of: Gap, time: Range, halvings: int = 0) -> Enclosure:
     """Enclose gap' on an interval of times: directly, and by the mean value theorem.
 
-    halvings: of the interval, again and again, where gap' < 0 is not proved.
+    halvings: of the interval, again and again, where gap' < 0 is not proved, until it is.
     """
     direct = gap_of(time, 1)
     first, last = (gap_of((end, end), 1).range for end in time)
     low, high = mean_values(first, last, gap_of(time, 2).range, time[1] - time[0])
-    found = direct.meet(type(direct).of(low, high, direct.bits))
-    if found.hi < 0 or not halvings:
-        return found
-    middle = (time[0] + time[1]) / 2
-    one, two = (fall(gap_of, half, halvings - 1) for half in ((time[0], middle), (middle, time[1])))
-    return type(direct)(min(one.lo, two.lo), max(one.hi, two.hi), direct.bits)
+    slope = direct.meet(type(direct).of(low, high, direct.bits))
+    if slope.hi < 0 or not halvings:
+        return slope
+    middle, ends = (time[0] + time[1]) / 2, []
+    for half in ((time[0], middle), (middle, time[1])):
+        part = fall(gap_of, half, halvings - 1)
+        if part.hi >= 0:  # more is not worth looking at
+            return slope
+        ends += [part.lo, part.hi]
+    return type(direct)(min(ends), max(ends), direct.bits)
 
 
 def falls(gap_of: Gap, time: Range, halvings: int = 0) -> bool:
     """Whether gap' < 0 on an interval of times, which may be halved again and again."""
-    if fall(gap_of, time).hi < 0:
-        return True
-    middle = (time[0] + time[1]) / 2
-    halves = (time[0], middle), (middle, time[1])
-    return halvings > 0 and all(falls(gap_of, half, halvings - 1) for half in halves)
+    return fall(gap_of, time, halvings).hi < 0
 
 
 def open_windows(gap_of: Gap, times: Sequence[Fraction]) -> list[Range]:
