@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Protocol
 
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
+from proofs.trusted.kernel.evaluation import Bounds, run
+from proofs.trusted.kernel.expression import Step
 from proofs.trusted.kernel.formulas import Formulas
 from proofs.trusted.kernel.maps import Map
 from proofs.trusted.kernel.meter import METER
-from proofs.trusted.kernel.operations import Enclosures, sqrt
+from proofs.trusted.kernel.operations import sqrt
 
 Point = list[Enclosure]  # a box
 
@@ -66,66 +66,78 @@ class Contractor:
     """
 
     def __init__(self, function: Formulas, bits: int) -> None:
-        tape, self._roots, self._numbers = function.tape, function.roots, Enclosures(bits)
-        self._nodes, self._known = [], dict[int, Enclosure]()
-        for place in tape.order(function.roots):
-            op, arguments, datum = tape.nodes[place]
-            if op != "variable" and all(i in self._known for i in arguments):
-                known = [self._known[i] for i in arguments]
-                self._known[place] = self._numbers.apply(op, known, datum)
-            else:
-                self._nodes.append((place, op, arguments, datum))
+        self._roots, self._bits = function.roots, bits
+        self._lower, self._upper = Bounds(), Bounds()  # of nodes without variables
+        (steps, _), moving = function.tape.divided(function.roots, -1), set[int]()
+        for step in steps:
+            if step.op == "variable" or not moving.isdisjoint(step.node.arguments):
+                moving.add(step.place)
+        run([x for x in steps if x.place not in moving], (), bits, self._lower, self._upper)
+        self._steps = [x for x in steps if x.place in moving]
 
     def cut(self, z: Point, w: Point) -> tuple[Point, Point]:
         """Return what is left of Z and W; all, where F is not proved defined on all of Z."""
-        METER.get().spend(4 * len(self._nodes))
-        values, left = dict(self._known), list(z)
+        METER.get().spend(len(self._steps))
+        known = _Known(dict(self._lower), dict(self._upper), self._lower, self._bits)
         try:
-            for place, op, arguments, datum in self._nodes:
-                known = [values[i] for i in arguments]
-                values[place] = (
-                    z[int(datum)] if op == "variable" else self._numbers.apply(op, known, datum)
-                )
+            run(self._steps, z, self._bits, known.lower, known.upper)
         except Unproved:
             return z, w
-        image = [meet(values[root], x) for root, x in zip(self._roots, w, strict=True)]
+        image = [meet(known[root], x) for root, x in zip(self._roots, w, strict=True)]
         for root, x in zip(self._roots, image, strict=True):
-            values[root] = meet(values[root], x)
-        for place, op, arguments, datum in reversed(self._nodes):
-            if op == "variable":
-                left[int(datum)] = values[place]
+            known.cut(root, x.lo, x.hi)
+        left = list(z)
+        for step in reversed(self._steps):
+            if step.op == "variable":
+                left[int(step.node.datum)] = known[step.place]
             else:
-                self._undo(values, values[place], op, arguments, datum)
+                known.undo(step)
         return left, image
 
-    def _undo(
-        self,
-        values: dict[int, Enclosure],
-        t: Enclosure,
-        op: str,
-        arguments: Sequence[int],
-        datum: Fraction,
-    ) -> None:
-        """Cut the arguments of an operation whose value is in t, if they are no numbers."""
-        for one, other in zip(arguments, reversed(arguments), strict=True):
-            x = values[other]
-            if one in self._known:
-                continue
-            if op == "+":
-                known = t - x
-            elif op == "-":
-                known = t + x if one == arguments[0] else x - t
-            elif op == "*" and not x.has_zero:
-                known = t / x
-            elif op == "/" and one == arguments[0]:
-                known = t * x
-            elif op == "negative":
-                known = -t
-            elif op == "^" and datum == 2:
-                known = _roots(x, t)
-            else:
-                continue
-            values[one] = meet(values[one], known)
+
+@dataclass(frozen=True)
+class _Known:
+    """What is known of the values of nodes."""
+
+    lower: Bounds
+    upper: Bounds
+    fixed: Bounds  # of numbers: not worth a division
+    bits: int
+
+    def __getitem__(self, place: int) -> Enclosure:
+        return Enclosure(self.lower[place], self.upper[place], self.bits)
+
+    def cut(self, place: int, low: int, high: int) -> None:
+        """Cut a value, or raise Empty."""
+        low, high = max(low, self.lower[place]), min(high, self.upper[place])
+        if low > high:
+            raise Empty
+        self.lower[place], self.upper[place] = low, high
+
+    def undo(self, step: Step) -> None:
+        """Cut the arguments of an operation by its value."""
+        place, op, i, j, node = step
+        lower, upper = self.lower, self.upper
+        low, high = lower[place], upper[place]
+        if op == "+":
+            self.cut(i, low - upper[j], high - lower[j])
+            self.cut(j, low - upper[i], high - lower[i])
+        elif op == "-":
+            self.cut(i, low + lower[j], high + upper[j])
+            self.cut(j, lower[i] - high, upper[i] - low)
+        elif op == "negative":
+            self.cut(i, -high, -low)
+        elif op == "^" and node.datum == 2:
+            self._cut(i, _roots(self[i], self[place]))
+        elif op == "/":
+            self._cut(i, self[place] * self[j])
+        elif op == "*":
+            for one, other in ((i, j), (j, i)):
+                if one not in self.fixed and not self[other].has_zero:
+                    self._cut(one, self[place] / self[other])
+
+    def _cut(self, place: int, x: Enclosure) -> None:
+        self.cut(place, x.lo, x.hi)
 
 
 def _roots(x: Enclosure, square: Enclosure) -> Enclosure:

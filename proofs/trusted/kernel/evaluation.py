@@ -42,17 +42,15 @@ def enclose(
     lower, upper = partial.lower, partial.upper
     if roots not in partial.roots:
         fresh = [step for step in still if step.place not in lower] if lower else still
-        _run(fresh, inputs, bits, lower, upper)
+        run(fresh, inputs, bits, lower, upper)
         partial.roots.add(roots)
     if moving:
         lower, upper = dict(lower), dict(upper)
-        _run(moving, inputs, bits, lower, upper)
+        run(moving, inputs, bits, lower, upper)
     return [Enclosure(lower[root], upper[root], bits) for root in roots]
 
 
-def _run(
-    steps: Steps, inputs: Sequence[Enclosure], bits: int, lower: Bounds, upper: Bounds
-) -> None:
+def run(steps: Steps, inputs: Sequence[Enclosure], bits: int, lower: Bounds, upper: Bounds) -> None:
     """Enclose nodes whose arguments are enclosed; a result beyond 2^256 raises Unproved."""
     limit, numbers, is_short = 1 << (bits + LARGEST), Enclosures(bits), bits < MANY
     pairs = dict[int, tuple[Enclosure, Enclosure]]()  # sin and cos of nodes

@@ -57,16 +57,22 @@ class Enclosures:
         if n % 2 == 0 and x.lo < 0:
             least = 0 if x.hi >= 0 else -x.hi
             x = Enclosure(least, max(-x.lo, x.hi), self.bits)
-        low = self._power_of_point(Enclosure(x.lo, x.lo, self.bits), n)
-        return low.hull(self._power_of_point(Enclosure(x.hi, x.hi, self.bits), n))
+        low, high = self._power_of_point(x.lo, n)[0], self._power_of_point(x.hi, n)[1]
+        return Enclosure(low, high, self.bits)
 
-    def _power_of_point(self, x: Enclosure, n: int) -> Enclosure:
-        result = x
+    def _power_of_point(self, x: int, n: int) -> tuple[int, int]:
+        """Return bounds of x^n, rounded at each product."""
+        if x < 0:  # n is odd
+            low, high = self._power_of_point(-x, n)
+            return -high, -low
+        low = high = x
         for bit in bin(n)[3:]:
-            result = self.apply("*", [result, result], _NO_DATUM)
-            if bit == "1":
-                result = self.apply("*", [result, x], _NO_DATUM)
-        return result
+            for a, b in ((low, high), (x, x))[: 1 + int(bit)]:
+                low, high = low * a >> self.bits, -(-high * b >> self.bits)
+                METER.get().spend(1 + (self.bits >> 7))
+                if high >= self._limit:
+                    raise Unproved("a value beyond 2^256")
+        return low, high
 
 
 def sqrt(x: Enclosure) -> Enclosure:

@@ -245,11 +245,11 @@ class Search:
                 waiting += _halves(tube, i, k)
 
     def _cut(self, tube: Tube) -> None:
-        """Cut by the map, forth and back along the tube, as long as that takes much away."""
+        """Cut by the map, back along the tube, as long as that takes much away."""
         period, before, after = self.period, 2, 0
         while 3 * after < 2 * before:
             before = _size(tube)
-            for i in (*range(period), *reversed(range(period))):
+            for i in reversed(range(period)):
                 following = (i + 1) % period
                 tube[i], image = self._contractor.cut(tube[i], tube[following])
                 tube[following] = list(map(meet, tube[following], image))
