@@ -70,8 +70,10 @@ def zeros(
     sub-boxes is inside the larger boxes of both, and may be found twice: if the box of one zero is
     within the larger box of another, the two are the same. Sub-boxes whose sides are below
     `tolerance` times those of the given box, once that is cut, and those left after `limit` ones,
-    or after so many seconds, are joined where they meet and examined by `krawczyk`; those where
-    nothing is decided once more where they are near to each other, and by `_multiple`.
+    or after so many seconds, are tried like the others, in larger boxes yet: a side cut to almost
+    nothing leaves no room for the rounding of the others. Then they are joined where they meet and
+    examined by `krawczyk`; those where nothing is decided once more where they are near to each
+    other, and by `_multiple`.
     """
     end = monotonic() + seconds
     given = one_box(box)
@@ -99,10 +101,15 @@ def zeros(
         halves, cut = split(waiting, scale, tolerance if limit > 0 else inf)
         small.append(select(waiting, ~cut))
         waiting = halves
+    left, near = join(small), np.array([float(x.wid[0]) * _NEAR for x in scale or given])
+    wider = [tuple(map(_wider, hull, near)) for hull in _hulls(left, near)]
+    for around in _round(f, join([nothing, *wider]))[0]:
+        left = select(left, ~_inside(left, around))
+        found.append(around)
     zero, unclear = _distinct(f, join(found))
-    small.append(_common(select(unclear, meets(unclear, given)), given))
+    left = join([left, _common(select(unclear, meets(unclear, given)), given)])
     results = [r for one in _each(zero) for r in _in_given(f, one, given)]
-    results += _examined(f, join(small), zero, scale or given)
+    results += _examined(f, left, zero, near)
     return sorted(results, key=lambda result: [x.inf for x in result.box or ()])
 
 
@@ -209,7 +216,11 @@ def _rational_zero(f: Function, box: Sequence[Interval] | None) -> tuple[Interva
     return None
 
 
-def _examined(f: Formula, boxes: Boxes, zero: Boxes, scale: Boxes) -> list[SystemResult]:
+def _wider(x: IntervalArray, reach: float) -> IntervalArray:
+    return x + IntervalArray.from_floats([-reach], [reach])
+
+
+def _examined(f: Formula, boxes: Boxes, zero: Boxes, near: Bounds) -> list[SystemResult]:
     """Join boxes that meet, and return what is known of each hull that may have a zero."""
     open_, results = _hulls(boxes, np.zeros(len(boxes))), []
     for hull in open_:
@@ -218,7 +229,6 @@ def _examined(f: Formula, boxes: Boxes, zero: Boxes, scale: Boxes) -> list[Syste
     vague = [r for r in results if r.outcome is Roots.UNDECIDED and r.box]
     if len(vague) > 1:  # around a multiple zero there are gaps between them
         sides = zip(*(r.box or () for r in vague), strict=True)
-        near = np.array([float(x.wid[0]) * _NEAR for x in scale])
         for hull in _hulls(tuple(IntervalArray(list(side)) for side in sides), near):
             inside = [r for r in vague if _inside(_boxes(r), hull).all()]
             if len(inside) > 1 and not meets(zero, hull).any() and (one := _known(f, hull, zero)):

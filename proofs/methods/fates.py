@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from math import e
 from typing import NamedTuple
 
 import numpy as np
@@ -103,7 +104,7 @@ def _angles(sampled: Sampled, x: Floats) -> list[str]:
         if np.isfinite(sampled.periods[k]) or not x.size:
             continue
         for text, period in _ANGLES:
-            if _respects(sampled, x, k, period) and not _respects(sampled, x, k, period / np.e):
+            if _respects(sampled, x, k, period) and not _respects(sampled, x, k, period / e):
                 lines.append(f"{name} may be an angle: give it the period {text}")
                 break
     return lines
