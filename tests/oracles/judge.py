@@ -66,6 +66,7 @@ _BLIND = {
     "tape",
     "roots",
     "parts",
+    "placer",
     "work",
     "_known",
     "_last",

@@ -89,6 +89,13 @@ class Composition:
             product = multiply(each.jacobian(point), product)
         return product
 
+    def is_reversible(self, on_images: bool) -> bool:
+        """Whether all maps are proved to be one-to-one; on images only if they are one map."""
+        from proofs.trusted.kernel.injective import is_one_to_one
+
+        is_one = all(each is self.maps[0] for each in self.maps)
+        return all(is_one_to_one(each, on_images and is_one) for each in self.maps)
+
 
 def read_map(name: str, reader: Reader, maps: Mapping[str, Map]) -> Map:
     """Read a function of a file; maps: those before it, of which a composition may be made."""

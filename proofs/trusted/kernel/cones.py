@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
@@ -23,6 +24,7 @@ from proofs.trusted.kernel.enclose import (
     tried,
 )
 from proofs.trusted.kernel.graph import Graph
+from proofs.trusted.kernel.injective import is_one_to_one
 from proofs.trusted.kernel.operations import Enclosures
 from proofs.trusted.numbers import hull, within
 
@@ -34,11 +36,13 @@ _MOST_PARTS = 256  # of bounds on derivatives
 class Conjugacy(Conclusion):
     """Each path of a graph is followed once.
 
-    unstable: the number of unstable directions, if these orbits are hyperbolic.
+    unstable: the number of unstable directions, if these orbits are hyperbolic. one_to_one:
+    whether the map is, on the points of full orbits.
     """
 
     graph: Graph
     unstable: int | None
+    one_to_one: bool
 
     @property
     def forward(self) -> bool:
@@ -62,8 +66,9 @@ class Conjugacy(Conclusion):
         return (
             f"{self.graph.described}; each bi-infinite path of these arrows is followed by "
             "exactly one full orbit, and the shift on these orbits is conjugate to the two-sided "
-            "shift on paths (so is the map on the compact set of their points, if it is "
-            f"one-to-one there){hyperbolic if self.unstable else ''}."
+            "shift on paths (so is the map on the compact set of their points"
+            f"{'' if self.one_to_one else ', if it is one-to-one there'})"
+            f"{hyperbolic if self.unstable else ''}."
         )
 
 
@@ -78,10 +83,11 @@ def cone(context: Context, reader: Reader) -> Conjugacy:
     each leaf no other turns than those of the relation bring an image into M.
 
     Conclusion: each bi-infinite path is followed by exactly one full orbit x_(m+1) = G(x_m) of
-    G = F^k. If all d_i > 0, each infinite path is followed by exactly one point, and G is uniformly
-    expanding there. If no d_i is 0, and in each form u > 0 of them are positive, these orbits are
-    uniformly hyperbolic: at each there are subspaces E, E' of the dimensions u and n - u, taken
-    into those at its image, E onto; vectors of E' shrink exponentially, and those of E backwards.
+    G = F^k, and G is one-to-one on their points where `is_one_to_one` has a proof. If all d_i > 0,
+    each infinite path is followed by exactly one point, and G is uniformly expanding there. If no
+    d_i is 0, and in each form u > 0 of them are positive, these orbits are uniformly hyperbolic: at
+    each there are subspaces E, E' of the dimensions u and n - u, taken into those at its image, E
+    onto; vectors of E' shrink exponentially, and those of E backwards.
 
     Proof. Existence: the graph step, and compactness. Let x_m, y_m be orbits along one path, in
     coordinates, D_m the mean of f' between them. Both lie in R, a convex set, since f maps them
@@ -116,7 +122,17 @@ def cone(context: Context, reader: Reader) -> Conjugacy:
         require_cone(step.local, _staying(step.local, relation, n), forms[i], forms[j])
     positive = {sum(entry > 0 for entry in form) for form in forms}
     is_regular = len(positive) == 1 and all(entry for form in forms for entry in form)
-    return Conjugacy(of, max(positive) if is_regular else None)
+    return Conjugacy(of, max(positive) if is_regular else None, _one_to_one(of))
+
+
+def _one_to_one(graph: Graph) -> bool:
+    """Whether G is proved to be one-to-one on points of full orbits: the images of F^i are such."""
+    first, *others = (each.local for each in graph.covers)
+    if any(each.map is not first.map or each.power != first.power for each in others):
+        return False
+    with suppress(Unproved):
+        return is_one_to_one(first.map, on_images=True)
+    return False
 
 
 def _staying(local: LocalMap, relation: Reader, n: int) -> list[Box]:

@@ -18,15 +18,25 @@ where all gaps are > 0 in between, and the others at the impact too.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Container, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import partial
 from typing import NamedTuple
 
 from proofs.trusted.certificate import Reader
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.firstzero import Gap
-from proofs.trusted.kernel.formulas import MAX_VALUES, Formulas, Placer, same_form
+from proofs.trusted.kernel.formulas import (
+    MAX_VALUES,
+    MAX_VARIABLES,
+    Formulas,
+    Placer,
+    same_form,
+)
 from proofs.trusted.kernel.head import optional, read_head, require_name, require_periods
+from proofs.trusted.kernel.injective import angles_of, determines, is_smooth, placed
+from proofs.trusted.kernel.normalform import NormalForms
 from proofs.trusted.kernel.returns import ReturnMap
 from proofs.trusted.kernel.trees import Derivative, Operation, Power, Tree, Variable, read_tree
 
@@ -58,6 +68,7 @@ class Flight(ReturnMap):
 
     formulas: Formulas
     motions: tuple[Motion, ...]
+    placer: Placer
 
     @property
     def time(self) -> str:
@@ -93,6 +104,63 @@ class Flight(ReturnMap):
         bends = [xx + (xt * 2 + tt * later) * later for _, _, xx, xt, tt in (gap, own)]
         return bends[1] - own[1] * (bends[0] / gap[1])
 
+    def is_reversible(self, on_images: bool) -> bool:
+        """Whether the map is proved to be one-to-one.
+
+        Theorem. Let a variable p have the value p + w t, w a number; let equations, gaps and values
+        be functions of p + w t and of the motions y, D(y, t), ..., below their orders, alone; let
+        some gap be 0 at launch. Let p + w t and the motions follow from the values and the first
+        gap being 0, the state from p and the starts, by `determines`. Then F(a) = F(b) only if
+        a = b.
+        Proof. Backwards from their ends the flights from a and b solve the same equations from the
+        same state, so they agree as long as both last. They last as long: where the shorter one
+        began a gap is 0, and in between all are > 0. So p and the starts are the same.
+        """
+        del on_images
+        tape, n = self.formulas.tape, self.state
+        own = [_order(each.name, k) for each in self.motions for k in range(len(each.start))]
+        moving = range(MAX_VARIABLES - len(own), MAX_VARIABLES)
+        is_square = self.size == n and moving.start >= len(self.formulas.variables)
+        if not (is_square and any(gap.order for gap in self.gaps)):
+            return False
+        places = {
+            x: tape.add("variable", datum=Fraction(k)) for x, k in zip(own, moving, strict=True)
+        }
+        names = {motion.name for motion in self.motions}
+        places |= {x: y for x, y in self.placer.places.items() if x not in names}
+        placer = Placer(tape, places, [])
+        trees = (*self.trees, *self.walls, *(motion.equation for motion in self.motions))
+        roots = [placer.place(_state_at(tree, self.time, names)) for tree in trees]
+        starts = [placer.place(tree) for motion in self.motions for tree in motion.start]
+        angles, begin = angles_of(self), {tape.add("variable", datum=Fraction(n)): tape.number(0)}
+        ends = tape.moved(roots[: n + 1], begin)
+        values = [*placed(self, ends[:n]), (ends[n], None)]
+        return any(
+            self._moves_with(p, roots, starts)
+            and determines(tape, values, {p, *moving}, angles)
+            and determines(tape, [(x, None) for x in starts], {*range(n)} - {p}, angles)
+            for p in range(n)
+        )
+
+    def _moves_with(self, p: int, roots: Sequence[int], starts: Sequence[int]) -> bool:
+        """Whether p has the value p + w t, functions are such of p + w t, and respect periods."""
+        tape, n, forms = self.formulas.tape, self.state, NormalForms(MAX_VARIABLES)
+        inputs = [tape.add("variable", datum=Fraction(k)) for k in range(n + 1)]
+        rate = tape.derivative(roots[p], n)
+        steady = tape.add("+", inputs[p], tape.add("*", rate, inputs[n]))
+        changes = [rate, tape.add("-", roots[p], steady)]
+        for root in roots:
+            along = tape.add("*", rate, tape.derivative(root, p))
+            changes.append(tape.add("-", tape.derivative(root, n), along))
+            changes += [tape.derivative(root, k) for k in range(n) if k != p]
+        for k, period in angles_of(self).items():
+            same = [*roots[:p], *roots[p + 1 :], *starts]
+            moved = tape.moved(same, {inputs[k]: tape.add("+", inputs[k], period)})
+            changes += map(partial(tape.add, "-"), moved, same)
+        w, *rest = tape.evaluate(tuple(changes), forms, forms.inputs())
+        smooth = all(is_smooth(tape, root, {*range(n + 1)}) for root in roots)
+        return smooth and {*w} <= {()} and all(map(forms.is_zero, rest))
+
     @property
     def definition(self) -> str:
         """Write F(x, ...) = ... at the first t > 0 where gap = 0, and what the motion is."""
@@ -104,6 +172,26 @@ class Flight(ReturnMap):
             f"`{self.name}({', '.join(self.variables)}) = ({values})` at the first `{time}` > 0 "
             f"where {first} = 0{walls}; {motions}{self.formulas.given}"
         )
+
+
+def _order(name: str, k: int) -> str:
+    """Name a motion's derivative, as no variable of a file is named."""
+    return f"{name}'{k}"
+
+
+def _state_at(tree: Tree, time: str, names: Container[str]) -> Tree:
+    """Return a formula with variables in the places of motions and of their derivatives.
+
+    Where it differentiates something else, the motions are left, as unknown variables.
+    """
+    match tree:
+        case Variable(name=name) if name in names:
+            return Variable(_order(name, 0))
+        case Derivative(by=by, parts=(Variable(name=name),)) if name in names and {*by} == {time}:
+            return Variable(_order(name, len(by)))
+        case Operation() | Power():
+            return replace(tree, parts=tuple(_state_at(x, time, names) for x in tree.parts))
+    return tree
 
 
 # -- reading ---------------------------------------------------------------------------------------
@@ -128,7 +216,7 @@ def read_flight(name: str, reader: Reader) -> Flight:
     formulas = head.formulas(name, placer, [*gaps, *values])
     roots, count = formulas.roots, len(gaps)
     require_periods(reader, formulas, roots[count:], roots[:count])
-    return Flight(formulas, len(head.state), left, tuple(motions))
+    return Flight(formulas, len(head.state), left, tuple(motions), placer)
 
 
 def _read_form(placer: Placer, time: str, reader: Reader) -> Motion:

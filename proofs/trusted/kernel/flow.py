@@ -19,6 +19,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from functools import reduce
 from typing import NamedTuple
 
@@ -36,6 +37,7 @@ from proofs.trusted.kernel.enclose import (
 )
 from proofs.trusted.kernel.formulas import MAX_VALUES, Formulas, same_form
 from proofs.trusted.kernel.head import optional, read_head, require_periods
+from proofs.trusted.kernel.injective import variables_of
 from proofs.trusted.kernel.lohner import Field, Point, Solutions, linearized, moved
 from proofs.trusted.kernel.section import LATEST, Gap, Journey, Section, hulls
 from proofs.trusted.kernel.trees import At, Derivative, Operation, Tree, Variable, read_tree
@@ -150,6 +152,33 @@ class Flow:
             self._known[key] = self._map(box)
         values, rows = self._known[key]
         return finer(values, spare), [finer(row, spare) for row in rows]
+
+    def is_reversible(self, on_images: bool) -> bool:
+        """Whether the map is proved to be one-to-one on its images.
+
+        Theorem. Let the field, the section and the values be functions of the state alone, the end
+        a section, and let the start from the values at a state on the section be that state. Then
+        F(a) = F(b) for images a and b of points only if a = b.
+        Proof. The starts from a, b and F(a) are states in which solutions fall through the section.
+        Solutions are unique, backwards as well: those from a and b to the start from F(a) are parts
+        of one. If b came first, it would fall through once more on its way than a does. So both
+        start in one state, of which a and b are the values.
+        """
+        tape, first, last = self.outcome.tape, self.first, self.first + self.equation.n
+        section = self.section.gap.formulas.roots
+        roots = (*self.section.velocity.roots, *section, *self.outcome.roots)
+        others = {*range(first), last} & variables_of(tape, *roots)
+        is_closed = not (others or self.circles) and self.size == first
+        if not (on_images and is_closed) or self.end.is_time or self.end.walls:
+            return False
+        places = [tape.add("variable", datum=Fraction(k)) for k in range(last)]
+        known = dict(zip(places, self.outcome.roots, strict=False))
+        begins = zip(tape.moved(self.start.roots, known), places[first:], strict=True)
+        return not any(map(tape.may_fail, self.start.roots)) and all(
+            same_form(tape, start, state)
+            or any(same_form(tape, start, tape.add(op, state, section[0])) for op in "+-")
+            for start, state in begins
+        )
 
     def journey(self, w: Point) -> Journey:
         """Return the solutions for all w, the parameters in ranges among them, at their start."""

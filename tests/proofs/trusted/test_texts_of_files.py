@@ -43,6 +43,8 @@ WORDS = {  # the fields that are texts, and which: None for those that only the 
     "Circle.period": None,
     "Composition.name": r"[A-Z][A-Za-z0-9]{0,11}",
     "Motion.name": NAME,
+    "Placer.places": NAME,
+    "Placer.solutions": NAME,
     "PeriodicOrbit.stability": "attracting|a saddle|repelling",
     "Operation.op": OPERATION,
     "Node.op": OPERATION,
