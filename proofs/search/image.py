@@ -246,7 +246,7 @@ def _possible(prover: Prover, phases: Range, reason: str, cuts: int = 5) -> Poss
     for part, sticks in fates:
         if sticks:
             continue
-        first = part if sticks is False else _leaving(rest.phase, part)
+        first = part if sticks is False else _leaving(prover, rest.phase, part)
         if first[0] > first[1]:
             continue
         for low, high in _windows(prover, first):
@@ -255,12 +255,13 @@ def _possible(prover: Prover, phases: Range, reason: str, cuts: int = 5) -> Poss
     return PossibleImages(_merged(images), reason)
 
 
-def _leaving(leave: Range, part: Range) -> Range:
-    """Return the phases of a part beyond a bracket of the separation, that it contains.
+def _leaving(prover: Prover, leave: Range, part: Range) -> Range:
+    """Return the phases of a part beyond a bracket of the separation, all before it sticking.
 
     From the bracket itself the flights are those of the separation.
     """
-    if part[1] < leave[0] or leave[1] < part[0]:
+    before = part[0], min(part[1], leave[0])
+    if leave[1] < part[0] or (before[0] < leave[0] and not _sticks(prover, before)):
         raise Undecided(
             "the interval contains the phase at which sticking begins: flights there are as "
             "short as one likes, and f jumps; take an interval on one side of it"

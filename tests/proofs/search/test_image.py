@@ -26,21 +26,7 @@ def point(system, phi, **options):
 
 CASES = [
     ("0.2121", "-0.2", phi)
-    for phi in (
-        "0",
-        "0.5",
-        "1.11",
-        "1.15",
-        "1.2",
-        "1.27",
-        "1.32",
-        "1.45",
-        "2",
-        "3",
-        "3.37",
-        "6.05",
-        "6.2",
-    )
+    for phi in map(str, (0, 0.5, 1.11, 1.15, 1.2, 1.27, 1.32, 1.45, 2, 3, 3.37, 6.05, 6.2))
 ] + [
     ("0.2121", "0.2", "0.7"),
     ("0.2121", "0.2", "1.5"),
@@ -113,6 +99,15 @@ def test_a_grazing_phase_inside_gives_the_set_of_possible_images():
         expected = reference.first_impact(mpf("0.2121"), mpf("-0.2"), as_mpf(phi))
         if expected is not None:
             assert any(holds(t, expected[0]) and holds(f, expected[1]) for t, f in found.images)
+
+
+def test_launches_just_before_a_short_sticking_arc_are_not_left_out():
+    """The arc from 4.669 to 4.756 lies inside the first part of the interval."""
+    system, low = System(Fraction("0.2121"), Fraction("-0.04715")), Fraction("4.665")
+    e, n, phi = (as_mpf(x) for x in (system.eta, system.nu, Fraction("4.667")))
+    assert reference.first_impact(e, n, phi)[0] < mpf("0.01")
+    with pytest.raises(Undecided, match="sticking begins"):
+        image(system, (low, low + 32 * Fraction("0.0915")))
 
 
 @pytest.mark.slow
