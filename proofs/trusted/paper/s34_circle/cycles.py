@@ -61,8 +61,8 @@ class Cycles(Conclusion):
     def sentence(self) -> str:
         return (
             "but for phases without any impact and the orbit that sticks, f has "
-            f"{_counted(self.counts)}; each is unstable and follows a sequence of these intervals "
-            f"of its own.{self._touches}"
+            f"{_counted(self.counts)}; each is unstable and follows a sequence of its own of "
+            f"{len(self.expansion.scales)} intervals on which f is C^1 and monotone.{self._touches}"
         )
 
     @property

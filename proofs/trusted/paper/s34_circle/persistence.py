@@ -136,8 +136,8 @@ class Passes(Conclusion):
     @property
     def sentence(self) -> str:
         return (
-            f"the mass that leaves the table at phi_s with relative velocity 0 {self.brief}, the "
-            "first separation phase after it lands."
+            "the mass that leaves the table at the separation phase phi_s with relative velocity 0 "
+            f"{self.brief}, the first one after it lands."
         )
 
     @property

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import About, Conclusion
-from proofs.trusted.numbers import Range, between, within
+from proofs.trusted.numbers import Range, between, show_range, within
 from proofs.trusted.paper.s34_circle.grazing import Grazing
 from proofs.trusted.paper.s34_circle.pieces import Piece, Pieces
 from proofs.trusted.parameters import PAPER, Parameters
@@ -66,6 +66,7 @@ class Between(Conclusion):
             f"to one in {between(high, _PLACES)}"
             for i, (low, high) in enumerate(self.images, 1)
         )
+        phases = ", ".join(show_range(graze.phases) for graze in self.grazes)
         shift = ""
         if self.full > 1:
             shift = (
@@ -74,7 +75,7 @@ class Between(Conclusion):
                 "followed by an orbit there, at a distance from all grazes, though f' is not "
                 "bounded on these intervals."
             )
-        return f"with phi_1 < phi_2 < ... these grazing phases: {onto}.{shift}"
+        return f"with phi_1, phi_2, ... the grazing phases in {phases}: {onto}.{shift}"
 
 
 def _ends(piece: Piece, one: Grazing, two: Grazing) -> bool:

@@ -16,7 +16,7 @@ import pytest
 from proofs.trusted.certificate import Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.coverings import EntropyBound, Weighted
-from proofs.trusted.numbers import Phases
+from proofs.trusted.numbers import Phases, show_range
 from proofs.trusted.oscillator import PlasticMap
 from proofs.trusted.paper import find
 from proofs.trusted.paper.s34_circle.cycles import Coding, Cycles, Outer
@@ -62,6 +62,7 @@ def test_what_is_derived_is_what_the_oracles_see(known):
     """Grazes, square roots, pieces, how lengths grow, periodic orbits."""
     between = Between(*firsts(only(Pieces, known)[0]))
     assert between.full == 2 and "each infinite sequence of them" in between.sentence
+    assert all(show_range(graze.phases) in between.sentence for graze in between.grazes)
     judged = (Grazing, EntropyBound, EntropyRange, Cycles)
     for found in (x for kind in judged for x in only(kind, known)):
         assert oracle(found, random.Random(1), OF) == []
@@ -262,6 +263,8 @@ def test_periodic_orbits_counted_by_brute_force(known):
         assert low <= count <= high
     assert found.counts[0] == (4, 4)
     assert sum(high - low for low, high in found.counts) == len(found.left) <= 3
+    count = len(found.expansion.pieces.monotone)
+    assert f"of its own of {count} intervals on which f is C^1 and monotone" in found.sentence
 
 
 def test_the_images_of_states_are_rounded_outward(known):
