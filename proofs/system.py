@@ -18,7 +18,7 @@ from typing import Any, Self
 
 from intervals import Undecided
 from proofs.map import Map, theorem_of
-from proofs.methods.ends import Ends, box_of, ends_of, exact_sides
+from proofs.methods.ends import Ends, box_of, ends_of, exact_sides, optional
 from proofs.methods.grammar import GrammarError, typed
 from proofs.methods.system_file import SystemFile
 from proofs.theorem import Theorem
@@ -190,6 +190,52 @@ class System(Map):
             except Undecided as error:
                 reason = error
         raise reason
+
+    def touching(self, *, wall: str = "", **sides: Ends) -> Theorem:
+        """Follow curves of launches that are followed by a graze, over the second of two ranges.
+
+        touching(a=("-0.2", "0.2"), v="-0.5", d=("0.1", "0.2")): a number or a range for each
+        variable, and ranges of parameters; two ranges in all. wall: as in `graze`.
+        """
+        from proofs.methods.branches import Moving
+        from proofs.methods.touches import launches
+
+        given = {each: ends for each, ends in sides.items() if each in self._file.parameters}
+        other, known = self.at(**given), exact_sides(sides)
+        box_of(self.variables, {each: sides[each] for each in sides if each not in given})
+        two = [Moving(*each) for each in known.items() if each[1][0] < each[1][1]]
+        if len(two) != 2:
+            raise ValueError("two ranges are expected, and numbers for the other variables")
+        fixed = {each: ends for each, ends in known.items() if ends[0] == ends[1]}
+        before, reason = self._wall(wall), Undecided("no graze is seen")
+        for after in self._file.next(before):
+            flight = other._file.map(before, after)
+            own = {**flight, **optional({**flight.get("parameters", {}), **fixed}, {})}
+            try:
+                file = launches(own, (two[0], two[1]), share=self._share)
+                return theorem_of(file, [*file.steps])
+            except Undecided as error:
+                reason = error
+        raise reason
+
+    def grazing(self, **parameters: Ends) -> Theorem:
+        """Follow curves of motions that graze a wall periodically, over the second of two ranges.
+
+        grazing(w=("2.5", "3"), d=("0.1", "0.2")): from contact with the first wall, see the key
+        `rest`, nothing is hit before this wall is touched again, the other variables being as at
+        the start.
+        """
+        from proofs.methods.outcomes import resting
+        from proofs.methods.touches import periodic
+
+        one, two = self._moving(parameters, 2)
+        own = self.at(**parameters)._file
+        contact = own.contact(0)
+        sides = zip(self.variables, self.region(), strict=True)
+        region = [side for each, side in sides if each not in contact]
+        flight = resting(own.map(0, 0), contact)
+        file = periodic(flight, region, (one, two), share=self._share)
+        return theorem_of(file, [*file.steps])
 
     def rest(self, *, wall: str = "", **state: Ends) -> Theorem:
         """Prove that no flight begins at a wall, from states of contact.

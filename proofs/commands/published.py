@@ -87,6 +87,7 @@ def _systems() -> list[Published]:
     lossy = System.example("billiard", a="2", e="0.8")
     fermi, gears = System.example("fermi-ulam"), System.example("gear-rattle")
     wall, soft = System.example("wall"), System.example("wall", w="2")
+    resonant = {"d": ("0", "0.6"), "w": ("1.95", "2.05")}  # 2 is twice the wall's own frequency
     return [
         _of(
             "bouncing-ball",
@@ -182,13 +183,16 @@ def _systems() -> list[Published]:
                 "orbits-1": lambda: wall.orbits(1),
                 "orbits-2": lambda: wall.orbits(2),
                 "stable": soft.stable,
+                "grazing": lambda: wall.grazing(**resonant),
+                "folds": lambda: wall.folds(d=("0", "0.6"), w=("1.95", "1.96")),
+                "touching": lambda: wall.touching(v=("-1", "0"), a=("0.3", "0.4")),
             },
             [
                 "Simpson and Ghosh (2026) prove that the curves of saddle-node and of "
                 "period-doubling bifurcations of motions with one impact a period are "
                 '"quadratically tangent to the curve of grazing bifurcations" at resonance.',
             ],
-            ["curves of grazing, folds and flips, and their tangency"],
+            ["that the curves of `grazing` and `folds` are tangent, and where"],
         ),
         *_flows(),
     ]

@@ -82,6 +82,11 @@ _QUESTIONS = {
     "graze": Question(
         "a value of the variable with a range is followed by a graze", "graze:X=A,Y=B:C", _STATE
     ),
+    "touching": Question(
+        "curves of launches that are followed by a graze, over the second range",
+        "touching:X=A,Y=B:C,P=D:E",
+        _STATE,
+    ),
     "rest": Question(
         "in contact with the wall no flight begins, at these states", "rest:X=A:B", _STATE
     ),
@@ -96,6 +101,11 @@ _QUESTIONS = {
     "flips": Question(
         "curves of fixed points with the multiplier -1, over the second range",
         "flips:P=A:B,Q=C:D",
+        _SIDE,
+    ),
+    "grazing": Question(
+        "curves of motions that graze a wall periodically, over the second range",
+        "grazing:P=A:B,Q=C:D",
         _SIDE,
     ),
 }
@@ -113,6 +123,7 @@ examples:
   python -m proofs system --example bouncing-ball --set e=0.499:0.501 --ask orbits:1
   python -m proofs system --example bouncing-ball --ask folds:g=0.6:1,e=0.45:0.5
   python -m proofs system --example wall --ask impact:a=0.3,v=-1 graze:a=0.3,v=-3:-0.1
+  python -m proofs system --example wall --ask grazing:d=0.1:0.2,w=2.5:3
 """
 
 

@@ -55,11 +55,18 @@ def residual(
     ]
     if multiplier is not None:
         values.append(_determinant(function, multiplier))
+    return over(function, [*state, *moving], values)
+
+
+def over(
+    function: Mapping[str, Any], variables: Sequence[str], values: Sequence[str]
+) -> dict[str, Any]:
+    """Return a function of other variables, which may be its parameters, with other values."""
     kept = {key: value for key, value in function.items() if key not in ("parameters", "periods")}
-    others = {k: v for k, v in function.get("parameters", {}).items() if k not in moving}
+    others = {k: v for k, v in function.get("parameters", {}).items() if k not in variables}
     made = {**kept, **({"parameters": others} if others else {})}
-    renamed = {"e": "ee"} if "e" in moving else {}  # no variable is named e
-    read = _read({**made, "variables": [*state, *moving], "values": values}, renamed)
+    renamed = {"e": "ee"} if "e" in variables else {}  # no variable is named e
+    read = _read({**made, "variables": [*variables], "values": [*values]}, renamed)
     return dict(read)
 
 

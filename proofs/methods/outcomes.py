@@ -168,6 +168,8 @@ def resting(function: Mapping[str, Any], contact: Mapping[str, str]) -> dict[str
         words = re.sub(r"[a-z]\w*", lambda word: places.get(word[0], word[0]), part)
         return part if words == part else str(formula(words))
 
+    if "motion" not in function:
+        raise Undecided("this is proved for flights with a closed form")
     places = {name: f"({value})" for name, value in contact.items()}
     kept = [k for k, name in enumerate(function["variables"]) if name not in contact]
     left = {key: [function[key][k] for k in kept] for key in ("variables", "values")}

@@ -85,7 +85,7 @@ def shut(map_: Map, region: Sequence[Range]) -> str:
     soon = np.full(_STARTS, _STEP / 1024)
     sampled, formulas = Sampled(map_), map_.formulas
     with np.errstate(all="ignore"):
-        gaps = sampled._evaluated(
+        gaps = sampled.evaluated(
             formulas, formulas.roots[: len(map_.gaps)], [*(low + (high - low) * shares), soon]
         )
     return next((str(gap) for gap, x in zip(map_.walls, gaps, strict=True) if (x < 0).all()), "")
@@ -207,14 +207,14 @@ class Sampled:
         n = len(x)
         if isinstance(part, Formulas):
             slopes = [part.tape.derivative(root, k) for root in part.roots for k in range(n)]
-            values = self._evaluated(part, (*part.roots, *slopes), [*x])
+            values = self.evaluated(part, (*part.roots, *slopes), [*x])
             image, rates = np.split(values, [len(part.roots)])
             return image, np.moveaxis(rates.reshape(len(image), n, -1), 2, 0)
         if not isinstance(part, Flight):
             raise TypeError(f"no derivatives of a {type(part).__name__}")
         roots = (part.gaps[0].orders[0], *part.outcome)
         slopes = [slope for root in roots for slope in part.slopes(root, range(n))]
-        values = self._evaluated(part.formulas, (*roots, *slopes), [*x, self.times(part, x)])
+        values = self.evaluated(part.formulas, (*roots, *slopes), [*x, self.times(part, x)])
         images, rates = np.split(values, [len(roots)])
         (*gap, fall), *rows = rates.reshape(len(roots), n + 1, -1)
         own = [row[:n] - row[n] * np.array(gap) / fall for row in rows]
@@ -227,11 +227,11 @@ class Sampled:
             return x
         if isinstance(map_, Flight):
             time = self.times(map_, x)
-            return self._evaluated(map_.formulas, map_.outcome, [*x, time])
+            return self.evaluated(map_.formulas, map_.outcome, [*x, time])
         if isinstance(map_, Flow):
             return Flown(map_, self._parameters(map_.ranges), compiled)(x)
         if isinstance(map_, Formulas):
-            return self._evaluated(map_, map_.roots, [*x])
+            return self.evaluated(map_, map_.roots, [*x])
         raise TypeError(f"no way to sample a {type(map_).__name__}")
 
     def times(self, flight: Flight, x: Floats) -> Floats:
@@ -278,9 +278,10 @@ class Sampled:
         formulas, time = flight.formulas, len(flight.variables)
         start = [np.zeros(1)] * (time + 1)
         speeds = phase_speeds(formulas.tape, formulas.roots[: len(flight.gaps)], time)
-        return 1 / pace(self._evaluated(formulas, speeds, start) if speeds else ())
+        return 1 / pace(self.evaluated(formulas, speeds, start) if speeds else ())
 
-    def _evaluated(self, formulas: Formulas, roots: Sequence[int], x: list[Floats]) -> Floats:
+    def evaluated(self, formulas: Formulas, roots: Sequence[int], x: list[Floats]) -> Floats:
+        """Return roots of a tape at points."""
         values = self._function(formulas, tuple(roots))(*x)
         return np.array([np.broadcast_to(value, np.shape(x[0])) for value in values])
 

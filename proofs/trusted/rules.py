@@ -32,6 +32,7 @@ RULES: Mapping[str, str] = MappingProxyType(
         "graze": "kernel.outcomes.graze",
         "trapping": "kernel.trapping.trapping",
         "arc": "kernel.arcs.arc",
+        "touching": "kernel.touching.touching",
         "h-set": "kernel.covers.h_set",
         "covers": "kernel.covers.covers",
         "graph": "kernel.graph.graph",

@@ -9,6 +9,7 @@ from fractions import Fraction
 import flint
 import numpy as np
 
+from tests.oracles.flights import SHORT, least_near, simulated
 from tests.oracles.formulas import BITS, exact
 from tests.oracles.kernel import matrix, newton, values
 from tests.oracles.motion import TURN, Impact, flight, inside
@@ -26,6 +27,7 @@ def _cut(piece, axis, x):
 
 
 def _sample(pieces, axis, rng, count):
+    """Values of the axis, with the sides of the boxes there."""
     for _ in range(count):
         piece = rng.choice(pieces)
         low, high = piece[0][axis]
@@ -68,6 +70,36 @@ def arc(view, rng):
     for first, second in zip(view.pieces, view.pieces[1:], strict=False):
         low, high = first[0][view.axis][1], second[0][view.axis][0]
         told += [] if low == high else ["a gap between two pieces"]
+    return told
+
+
+def touching(view, rng):
+    """Where values and gap are 0, by Newton's method with differences, the gap is least."""
+    told, axis, h = [], view.arc.axis, 1e-4
+    gap = view.function.formulas.trees[0]
+    flights = simulated(view, gap)
+
+    def function(places):
+        """The values, but the speed, the gap and its speed, at columns of states and times."""
+        early, late, here = (flights.at(places[:-1], places[-1] + d) for d in (-h, h, 0))
+        return np.vstack([here, (late[-1] - early[-1]) / (2 * h)])
+
+    for x, sides in _sample(view.arc.pieces, axis, rng, 3):
+        place = np.array([float(low + high) / 2 for low, high in sides])
+        place[axis], free = float(x), [k for k in range(len(place)) if k != axis]
+        moves = np.eye(len(place))[:, free] * 1e-5
+        for _ in range(5):
+            values = function(place[:, None] + np.hstack([0 * moves[:, :1], moves, -moves]))
+            after, before = np.split(values[:, 1:], 2, axis=1)
+            place[free] -= np.linalg.solve((after - before) / 2e-5, values[:, 0])
+        gaps = flights.heights(place[:-1, None], place[-1] + 4 * SHORT)[:, :, 0]
+        least, time = least_near(gaps[:, 0], round(place[-1] / SHORT) - 1)
+        if not all(a - 1e-6 < y < b + 1e-6 for y, (a, b) in zip(place, sides, strict=True)):
+            told.append(f"at {float(x):.6g} a graze is elsewhere: {place}")
+        elif abs(least) > 1e-7 or abs(time - place[-1]) > 1e-4:
+            told.append(f"at {float(x):.6g} the gap is {least:.3g} at the least, at {time:.9g}")
+        elif gaps[: int(0.97 * place[-1] / SHORT)].min() <= 0:
+            told.append(f"at {float(x):.6g} a gap is < 0 before")
     return told
 
 

@@ -123,6 +123,14 @@ class Simulation:
             found.append(self._rows(self.gaps, env, (k + 1) * self.step, z))
         return np.array(found)
 
+    def at(self, states, times):
+        """The values, a row each, of many flights at about one time."""
+        (env, z), count = self._launched(np.asarray(states, float)), int(min(times) / self.step)
+        for k in range(count):
+            z = self._moved(env, k * self.step, z, self.step)
+        z = self._moved(env, count * self.step, z, times - count * self.step)
+        return self._rows(self.values, env, times, z)
+
     def fly(self, states):
         """The values, a row each, at the impacts of many flights; the last row has the times."""
         states = np.asarray(states, float)
@@ -173,8 +181,11 @@ LONG, SHORT = (20 if EFFORT.quick else 80), 1 / 200  # times
 SLIP = 1e-10  # of the gaps
 
 
-def _simulated(view):
-    return Simulation(system_of_record(view.function))
+def simulated(view, *values):
+    """The flights of a record; values: in the place of the last one."""
+    system = system_of_record(view.function)
+    kept = (*system.values[:-1], *values) if values else system.values
+    return Simulation(system._replace(values=kept))
 
 
 def _states(view, rng, count=12):
@@ -188,13 +199,13 @@ def _states(view, rng, count=12):
 
 def no_impact(view, rng):
     """Gaps are > 0 for a long time."""
-    heights = _simulated(view).heights(_states(view, rng), LONG)
+    heights = simulated(view).heights(_states(view, rng), LONG)
     return [] if heights.min() > -SLIP else [f"a gap of {heights.min():.3g} is seen"]
 
 
 def pressed(view, rng):
     """A gap is < 0 soon."""
-    heights = _simulated(view).heights(_states(view, rng), SHORT)
+    heights = simulated(view).heights(_states(view, rng), SHORT)
     most = heights.min(axis=(0, 1)).max()
     return [] if most < 0 else [f"all gaps are {most:.3g} at least, soon after launch"]
 
@@ -205,17 +216,17 @@ def graze(view, rng):
     states[:] = states[:, :1]
     states[view.axis] = [float(x) for x in view.box[view.axis]]
     low, high = map(float, view.time)
-    gaps = _simulated(view).heights(states, high + 4 * SHORT)
+    gaps = simulated(view).heights(states, high + 4 * SHORT)
     below, above = (0, 1) if view.rises else (1, 0)
     told = [] if gaps[: int(low / SHORT)].min() > 0 else ["a gap is < 0 before"]
     for side, sign in ((below, -1), (above, 1)):
-        least, time = _least(gaps[:, 0, side], round((low + high) / 2 / SHORT) - 1)
+        least, time = least_near(gaps[:, 0, side], round((low + high) / 2 / SHORT) - 1)
         if sign * least < 0 or not low <= time <= high:
             told.append(f"on one side the gap is {least:.3g} at the least, at the time {time:.9g}")
     return told
 
 
-def _least(gap, near):
+def least_near(gap, near):
     """The least value between some steps, by interpolation, and the time."""
     about = near + np.arange(-3, 4)
     curve = np.polynomial.Polynomial.fit(SHORT * (about + 1), gap[about], 6)

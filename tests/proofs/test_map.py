@@ -303,9 +303,8 @@ def test_a_ball_rests_where_the_table_does_not_fall_faster():
 def far_wall(*more):
     """The wall at 1, out of the reach of the forced oscillation, whose amplitude is 0.146."""
     file = System.example("wall")._file.file
-    motion = {"x": {**file["motion"]["x"], "start": ["1", "v"]}}
-    impacts = [{**file["impact"][0], "gap": "1 - x", **dict(each)} for each in ((), *more)]
-    return System({**file, "motion": motion, "impact": impacts})
+    impacts = [{**file["impact"][0], **dict(each)} for each in ((), *more)]
+    return System({**file, "impact": impacts}, d="1")
 
 
 @pytest.mark.slow
@@ -608,7 +607,10 @@ def test_all_orbits_and_images_are_asked_of_the_command(capsys):
         (["--map", "r*x", "--set", "r=0:2"], "exist: no isolated one is seen\n"),
         (["--map", "1 - r*x^2", "--set", "r=-1:3"], "narrower ranges do: r in [0.5, 1.5]\n"),
         (["--map", "x/2"], "of 30 points at random, x in [-3, 3], 30 are followed"),
-        (["--example", "wall", "--box", "v=-1:2"], "at once, as at rest or after chatter: -x is"),
+        (
+            ["--example", "wall", "--box", "v=-1:2"],
+            "at once, as at rest or after chatter: d - x",
+        ),
         (["--example", "two-walls"], "at another wall than is next in their order"),
     ],
 )

@@ -66,19 +66,28 @@ class Arc(Conclusion):
         return max(high - low for low, high in (piece.box[place] for piece in self.pieces))
 
     @property
-    def sentence(self) -> str:
-        """Return the statement."""
+    def path(self) -> str:
+        """Say where it is."""
         names, ends = self.function.variables, self.ends
         first, last = (
             box_text(piece.cut(self.axis, x), names)
             for piece, x in zip((self.pieces[0], self.pieces[-1]), ends, strict=True)
         )
-        shown = "; ".join(box_text(point, names) for point in self.points)
+        return f"in a chain of {len(self.pieces)} slanted boxes, from {first} to {last}"
+
+    @property
+    def passed(self) -> str:
+        """Say which points it passes."""
+        shown = "; ".join(box_text(point, self.function.variables) for point in self.points)
+        return f", which passes {shown}" if shown else ""
+
+    @property
+    def sentence(self) -> str:
+        """Return the statement."""
+        name, axis = self.function.name, self.function.variables[self.axis]
         return (
-            f"for {self.function.definition}: the zeros of `{self.function.name}` in a chain "
-            f"of {len(self.pieces)} slanted boxes, from {first} to {last}, are the graph of a "
-            f"smooth function of `{names[self.axis]}` in {show_range(ends)}"
-            + (f", which passes {shown}." if shown else ".")
+            f"for {self.function.definition}: the zeros of `{name}` {self.path}, are the graph "
+            f"of a smooth function of `{axis}` in {show_range(self.ends)}{self.passed}."
         )
 
 

@@ -6,8 +6,11 @@ from functools import cache
 import sympy
 
 from proofs.methods.arcs import follow, thin
+from proofs.methods.branches import Moving
+from proofs.methods.derivation import Derivation
 from proofs.methods.lemmas import Lemmas
 from proofs.methods.symbolic import SymbolicLemmas
+from proofs.methods.touches import launches
 from proofs.trusted.equations import (
     AT_LAUNCH,
     clock,
@@ -256,6 +259,16 @@ def outcomes():
     return file
 
 
+def touching():
+    """Launches of an oscillator after which it touches the wall, over the phase."""
+    moving = Moving("v", (Fraction(-5), Fraction(0))), Moving("phi", (Fraction(0), Fraction(1, 2)))
+    curve = launches(DAMPED, moving)
+    ((_, step),), short = curve.steps.items(), Derivation(curve.functions)
+    witness = {key: step["witness"][key][:2] for key in ("pieces", "starts")}
+    short.add("touching", step["witness"] | witness)
+    return short
+
+
 def trapping():
     """Two boxes side by side whose images lie across their common side; a map of a cylinder."""
     turning = {"variables": ["a", "v"], "periods": {"a": "2*pi"}}
@@ -280,6 +293,7 @@ def trapping():
 
 
 EXAMPLES = {
+    "touching": touching,
     "trapping": trapping,
     "outcomes": outcomes,
     "lines": Lines,
