@@ -184,7 +184,8 @@ def _systems() -> list[Published]:
                 "orbits-2": lambda: wall.orbits(2),
                 "stable": soft.stable,
                 "grazing": lambda: wall.grazing(**resonant),
-                "folds": lambda: wall.folds(d=("0", "0.6"), w=("1.95", "1.96")),
+                "folds": lambda: wall.folds(d=("0", "0.6"), w=("1.95", "1.99")),
+                "flips": lambda: wall.flips(d=("0", "0.6"), w=("2.7", "2.9")),
                 "touching": lambda: wall.touching(v=("-1", "0"), a=("0.3", "0.4")),
             },
             [

@@ -2,7 +2,8 @@
 
 A fixed point is a zero of F(x) - x, with parameters among the variables: a formula, or, of a
 flight, other values at the impact. Where it also has the multiplier 1, or -1, det(F' - 1) = 0,
-or det(F' + 1) = 0: a further value. Such zeros are followed by the rule `arc`.
+or det(F' + 1) = 0: a further value. Such zeros are followed by the rules
+`arc` and `flight-arc`.
 """
 
 from __future__ import annotations
@@ -21,10 +22,16 @@ from proofs.methods.lemmas import newton
 from proofs.methods.newton import Cycle, cycles, distance, seeds
 from proofs.methods.sampling import Floats, Sampled
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.flight import Flight
+from proofs.trusted.kernel.flightarcs import require_first, timed
+from proofs.trusted.kernel.maps import Map
 from proofs.trusted.kernel.trees import formula
+from proofs.trusted.kernel.zeros import Piece
 from proofs.trusted.numbers import Range
 
-_LONGEST, _PIECES = 8, 96  # steps of a branch, at the least; pieces of all of them, at the most
+_LONGEST, PIECES = 8, 200  # steps of a branch, at the least; pieces of all of them, at the most
+_ROUNDS = 3  # of Newton's method, next to where two orbits meet
+_BEFORE = [Fraction(1, k) for k in (8, 4, 32, 128)]  # parts of the time of an impact
 _GRID, _SEEDS, _TRIES, _NEAR = 24, 60, 6, 1e-6
 _NAME = "G"
 
@@ -183,31 +190,82 @@ def _followed(
 ) -> Derivation:
     """Return a file with the arcs from some points, each once; sampled: for its angles."""
     names = [each.name for each in moving]
-    low, high = moving[-1].range
     kinds = {tuple(turns): f"{_NAME}{k}" for k, (_, turns) in enumerate(starts)}
     file = Derivation(
         {name: residual(function, names, turns, multiplier) for turns, name in kinds.items()}
     )
     seen: list[Floats] = []
-    left, reason = int(_PIECES * share), "no orbit is found"
+    left, reason = int(PIECES * share), "no orbit is found"
     for point, turns in starts:
         name, reason = kinds[tuple(turns)], "nothing is found"
-        map_, axis = file.map(name), len(point) - 1
+        map_ = file.map(name)
         try:
-            start = newton(map_, point, axis=axis)[0]
+            start = _with_time(map_, point)
+            for _ in range(_ROUNDS):
+                start = newton(zeros(map_), start, axis=len(point) - 1)[0]
             here = np.array(start, float)
             if not left or any(_is_same(sampled, here, each) for each in seen):
                 continue
             seen.append(here)
-            pieces = follow(map_, axis, start, high, step=(high - low) / _LONGEST, most=left)
-            left -= len(pieces)
-            witness = {"function": name, "axis": map_.variables[axis], "points": []}
-            file.add("arc", {**witness, "pieces": [piece.witness for piece in pieces]})
+            left -= add_arc(file, name, start, moving[-1].range, left)
         except (IntervalError, Unproved) as error:
             reason = str(error)
     if not file.steps:
         raise Undecided(f"no curve is followed: {reason}")
     return file
+
+
+def _with_time(map_: Map, point: Sequence[Fraction]) -> list[Fraction]:
+    """Return a point, of a flight with the time of its impact."""
+    if not isinstance(map_, Flight):
+        return [*point]
+    (time,) = Sampled(map_).times(map_, np.array([[float(x)] for x in point]))
+    if not np.isfinite(time):
+        raise Undecided("no impact is seen")
+    return [*point, Fraction(float(time))]
+
+
+def zeros(map_: Map) -> Map:
+    """Return the function whose zeros make an arc: of a flight, of the time as well."""
+    return timed(map_) if isinstance(map_, Flight) else map_
+
+
+def add_arc(file: Derivation, name: str, start: Sequence[Fraction], side: Range, most: int) -> int:
+    """Follow zeros of a function over its last variable, and add what is proved of them.
+
+    side: of that variable, to whose end they are followed from about a point. Return the number of
+    pieces; raises Undecided or Unproved where there are none.
+    """
+    map_ = file.map(name)
+    axis, step, earlier = len(map_.variables) - 1, (side[1] - side[0]) / _LONGEST, {}
+
+    def accept(piece: Piece) -> None:
+        if isinstance(map_, Flight):
+            earlier[piece] = _start(map_, axis, piece)
+
+    found = follow(zeros(map_), axis, start, side[1], step=step, most=most, accept=accept)
+    pieces = [each.witness for each in found]
+    witness = {"function": name, "axis": map_.variables[axis], "points": [], "pieces": pieces}
+    if isinstance(map_, Flight):
+        times = [str(earlier[each.piece]) for each in found]
+        file.add("flight-arc", {**witness, "starts": times})
+    else:
+        file.add("arc", witness)
+    return len(found)
+
+
+def _start(flight: Flight, axis: int, piece: Piece) -> Fraction:
+    """Return a time before impacts by which they are the first; Undecided where none will do."""
+    reason, low = "", piece.hull(axis)[-1][0]
+    for part in _BEFORE:
+        start = round(low * (1 - part), 6)
+        try:
+            require_first(flight, axis, piece, start)
+        except Unproved as error:
+            reason = str(error)
+        else:
+            return start
+    raise Undecided(reason)
 
 
 def _is_same(sampled: Sampled, x: Floats, y: Floats) -> bool:

@@ -1,4 +1,4 @@
-"""Curves of grazes: candidates in floating point, which are followed by the rule `touching`."""
+"""Curves of grazes: candidates in floating point, which are followed by the rule `flight-arc`."""
 
 from __future__ import annotations
 
@@ -9,22 +9,18 @@ from typing import Any
 import numpy as np
 
 from intervals import IntervalError, Undecided
-from proofs.methods.arcs import follow
-from proofs.methods.branches import Moving, over, residual
+from proofs.methods.branches import PIECES, Moving, add_arc, over, residual
 from proofs.methods.derivation import Derivation
 from proofs.methods.sampling import Floats, Sampled
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.flight import Flight
-from proofs.trusted.kernel.touching import require_touch, touches
-from proofs.trusted.kernel.zeros import Piece
+from proofs.trusted.kernel.flightarcs import timed
 from proofs.trusted.numbers import Range
 
 _SEEDS, _STEPS, _LOOKS = 300, 20, 1000
 _BEGINNINGS = 4  # values of the axis at which grazes are looked for
 _LATEST, _SOON = 32.0, 0.05  # times of grazes, in units of the motion's pace
 _SMALL, _NEAR = 1e-9, 1e-6
-_LONGEST, _PIECES = 8, 200  # steps of a curve, at the least; pieces of all of them, at the most
-_BEFORE = [Fraction(1, k) for k in (8, 4, 32)]  # parts of a graze's time
 _NAME = "G"
 
 
@@ -83,46 +79,21 @@ def _followed(graze: Any, periods: Floats, sides: Sequence[Range], share: float)
     low, high = sides[-1]
     angles = np.isfinite(periods)
     first = _flight(Derivation({_NAME: graze([0] * sum(angles))}))
-    reason, left, axis = "no graze is seen", int(_PIECES * share), len(sides) - 1
+    reason, left, axis = "no graze is seen", int(PIECES * share), len(sides) - 1
     for k in range(_BEGINNINGS):
         begin = low + (high - low) * k / _BEGINNINGS
         seen = _seen(first, periods, [*sides[:-1], (begin, begin)], int(_SEEDS * share))
         kinds = {turns: f"{_NAME}{i}" for i, turns in enumerate(dict.fromkeys(t for _, t in seen))}
         file = Derivation({name: graze(turns) for turns, name in kinds.items()})
-        for point, turns in seen if left else ():
-            flight, starts = _flight(file, kinds[turns]), dict[Piece, Fraction]()
-
-            def accept(piece: Piece, flight: Flight = flight, starts: Any = starts) -> None:
-                starts[piece] = _start(flight, axis, piece)
-
+        for point, turns in seen:
+            start = [*point[:axis], begin, *point[axis + 1 :]]
             try:
-                step = (high - low) / _LONGEST
-                formulas, start = touches(flight), [*point[:axis], begin, *point[axis + 1 :]]
-                found = follow(formulas, axis, start, high, step=step, most=left, accept=accept)
-                left -= len(found)
-                witness = {"function": kinds[turns], "axis": flight.variables[axis], "points": []}
-                pieces = [each.witness for each in found]
-                times = [str(starts[each.piece]) for each in found]
-                file.add("touching", {**witness, "pieces": pieces, "starts": times})
+                left -= add_arc(file, kinds[turns], start, (low, high), left) if left else 0
             except (IntervalError, Unproved) as error:
                 reason = str(error)
         if file.steps:
             return file
     raise Undecided(f"no curve is followed: {reason}")
-
-
-def _start(flight: Flight, axis: int, piece: Piece) -> Fraction:
-    """Return a time before a graze by which it is the first; Undecided where none will do."""
-    reason, low = "", piece.hull(axis)[-1][0]
-    for part in _BEFORE:
-        start = round(low * (1 - part), 6)
-        try:
-            require_touch(flight, axis, piece, start)
-        except Unproved as error:
-            reason = str(error)
-        else:
-            return start
-    raise Undecided(reason)
 
 
 def _seen(
@@ -134,7 +105,7 @@ def _seen(
     """
     unit, rng = Sampled(flight).unit(flight), np.random.default_rng(0)
     low, high = np.array([[float(end) for end in side] for side in sides]).T
-    latest, formulas = _LATEST * unit, touches(flight)
+    latest, formulas = _LATEST * unit, timed(flight)
     bottom, top = np.append(low, 0)[:, None], np.append(high, latest)[:, None]
     x = bottom + (top - bottom) * rng.random((len(low) + 1, count))
     free, sampled = [k for k in range(len(x)) if k != len(sides) - 1], Sampled(formulas)

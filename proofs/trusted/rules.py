@@ -32,7 +32,7 @@ RULES: Mapping[str, str] = MappingProxyType(
         "graze": "kernel.outcomes.graze",
         "trapping": "kernel.trapping.trapping",
         "arc": "kernel.arcs.arc",
-        "touching": "kernel.touching.touching",
+        "flight-arc": "kernel.flightarcs.flight_arc",
         "h-set": "kernel.covers.h_set",
         "covers": "kernel.covers.covers",
         "graph": "kernel.graph.graph",

@@ -73,33 +73,44 @@ def arc(view, rng):
     return told
 
 
-def touching(view, rng):
-    """Where values and gap are 0, by Newton's method with differences, the gap is least."""
+def flight_arc(view, rng):
+    """Where values and gap are 0, by Newton's method with differences, the gap is least, or falls.
+
+    In the place of a last value that is the gap's speed its difference is taken.
+    """
     told, axis, h = [], view.arc.axis, 1e-4
-    gap = view.function.formulas.trees[0]
-    flights = simulated(view, gap)
+    formulas, n = view.function.formulas, len(view.function.gaps)
+    (gap, *_), values = formulas.trees[:n], formulas.trees[n:]
+    is_graze = values[-1] == f"D({gap}, {formulas.variables[view.function.state]})"
+    flights = simulated(view, (*values[: len(values) - is_graze], gap))
 
     def function(places):
-        """The values, but the speed, the gap and its speed, at columns of states and times."""
-        early, late, here = (flights.at(places[:-1], places[-1] + d) for d in (-h, h, 0))
-        return np.vstack([here, (late[-1] - early[-1]) / (2 * h)])
+        """All of this at columns of states and times."""
+        here = flights.at(places[:-1], places[-1])
+        if not is_graze:
+            return here
+        early, late = (flights.at(places[:-1], places[-1] + d)[-1] for d in (-h, h))
+        return np.vstack([here, (late - early) / (2 * h)])
 
     for x, sides in _sample(view.arc.pieces, axis, rng, 3):
         place = np.array([float(low + high) / 2 for low, high in sides])
         place[axis], free = float(x), [k for k in range(len(place)) if k != axis]
         moves = np.eye(len(place))[:, free] * 1e-5
         for _ in range(5):
-            values = function(place[:, None] + np.hstack([0 * moves[:, :1], moves, -moves]))
-            after, before = np.split(values[:, 1:], 2, axis=1)
-            place[free] -= np.linalg.solve((after - before) / 2e-5, values[:, 0])
+            found = function(place[:, None] + np.hstack([0 * moves[:, :1], moves, -moves]))
+            after, before = np.split(found[:, 1:], 2, axis=1)
+            place[free] -= np.linalg.solve((after - before) / 2e-5, found[:, 0])
         gaps = flights.heights(place[:-1, None], place[-1] + 4 * SHORT)[:, :, 0]
-        least, time = least_near(gaps[:, 0], round(place[-1] / SHORT) - 1)
         if not all(a - 1e-6 < y < b + 1e-6 for y, (a, b) in zip(place, sides, strict=True)):
-            told.append(f"at {float(x):.6g} a graze is elsewhere: {place}")
-        elif abs(least) > 1e-7 or abs(time - place[-1]) > 1e-4:
-            told.append(f"at {float(x):.6g} the gap is {least:.3g} at the least, at {time:.9g}")
+            told.append(f"at {float(x):.6g} the flight is elsewhere: {place}")
         elif gaps[: int(0.97 * place[-1] / SHORT)].min() <= 0:
             told.append(f"at {float(x):.6g} a gap is < 0 before")
+        elif not is_graze:
+            told += [] if gaps[-1, 0] < 0 else [f"at {float(x):.6g} the gap is > 0 after it"]
+        else:
+            least, time = least_near(gaps[:, 0], round(place[-1] / SHORT) - 1)
+            if abs(least) > 1e-7 or abs(time - place[-1]) > 1e-4:
+                told.append(f"at {float(x):.6g} the gap is least at {time:.9g}: {least:.3g}")
     return told
 
 

@@ -181,11 +181,10 @@ LONG, SHORT = (20 if EFFORT.quick else 80), 1 / 200  # times
 SLIP = 1e-10  # of the gaps
 
 
-def simulated(view, *values):
-    """The flights of a record; values: in the place of the last one."""
+def simulated(view, values=None):
+    """The flights of a record, perhaps with other values."""
     system = system_of_record(view.function)
-    kept = (*system.values[:-1], *values) if values else system.values
-    return Simulation(system._replace(values=kept))
+    return Simulation(system._replace(values=values or system.values))
 
 
 def _states(view, rng, count=12):

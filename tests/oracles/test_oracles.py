@@ -315,7 +315,7 @@ ReturningMotion: beyond.points short; arc.phase off
 SticksOnce: cells off; end.cells off; arc.phase off
 StickingMotion: landing = null; cells off; cells drop -1; arc.phase off
 Arc: pieces odd; pieces.*.0 beside; points.* later
-Touching: arc.pieces.*.0 beside
+FlightArc: arc.pieces.*.0 beside
 GrazingCurve: n = 1; epsilon = 1/1000; side = 1; amplitudes.0 off; arc.pieces.*.0 beside
 Meeting: other = flip; rising not; box.0 off; amplitude off
 StableOrbit: cells off; contraction = 1/3 1/2; contraction = 1 2

@@ -13,6 +13,7 @@ from proofs.trusted.verify import check
 
 def points(arc, count=5):
     """Boxes of an arc at values of its axis; the axis' value first."""
+    arc = getattr(arc, "arc", arc)  # of flights
     low, high = arc.ends
     for k in range(count):
         x = low + (high - low) * k / (count - 1)
@@ -61,7 +62,7 @@ def test_a_branch_and_its_fold_of_a_flight():
             )
     (arc,) = ball.folds(g=("0.8", "1"), e=("0.45", "0.46"))
     assert arc.function.variables == ("phi", "v", "g", "ee")  # no variable is named e
-    for e, (_, _, (low, high), _) in points(arc, 3):
+    for e, (_, _, (low, high), *_) in points(arc, 3):
         assert low < (1 + e) / (math.pi * (1 - e)) < high < low + 0.01
 
 

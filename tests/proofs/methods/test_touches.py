@@ -27,7 +27,7 @@ def test_the_forced_oscillation_grazes_where_the_wall_is_at_its_amplitude(ranges
     (curve,) = WALL.grazing(**ranges)
     names = curve.function.variables
     assert names[curve.arc.axis] == [*ranges][1]
-    for _, sides in points(curve.arc):
+    for _, sides in points(curve):
         place = dict(zip(names, sides, strict=False))
         (low, high), (first, last) = place["d"], place["w"]
         assert low < amplitude(first) + 1e-9 and amplitude(last) - 1e-9 < high

@@ -32,6 +32,7 @@ HARMLESS = {  # fields; what may be done to them, and why
         "nudged moved widened looser tighter",
         "another bracket that holds the impact; the numbers are computed from it again",
     ),
+    "starts": ("nudged moved", "another time before the impact, up to which the gap is > 0"),
     "root": ("nudged looser tighter widened", "another bracket of the root"),
     **dict.fromkeys(("bounds", "states", "weights"), (ANY, "others, proved anew")),
     "points": ("nudged dropped", "other points of the same pieces"),

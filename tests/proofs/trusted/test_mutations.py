@@ -20,7 +20,7 @@ from tests.proofs.trusted.kernel.lemma_examples import EXAMPLES, text
 from tests.proofs.trusted.mutations import EXCUSED, FORM, HARMLESS, mutations, outcome
 from tests.proofs.trusted.renewing import fresh
 
-SHARES = {"ball": 0.04, "rattle": 0.04, "outcomes": 0.15, "touching": 0.15}  # simulated
+SHARES = {"ball": 0.04, "rattle": 0.04, "outcomes": 0.15, "flight_arcs": 0.15}  # simulated
 SLOW = SHARES.keys() | {"lines", "horseshoe", "henon_horseshoe", "gap_identities"}
 FILES = ["horseshoe", *EXAMPLES]
 

@@ -6,11 +6,10 @@ from functools import cache
 import sympy
 
 from proofs.methods.arcs import follow, thin
-from proofs.methods.branches import Moving
+from proofs.methods.branches import add_arc, over, residual
 from proofs.methods.derivation import Derivation
 from proofs.methods.lemmas import Lemmas
 from proofs.methods.symbolic import SymbolicLemmas
-from proofs.methods.touches import launches
 from proofs.trusted.equations import (
     AT_LAUNCH,
     clock,
@@ -259,14 +258,14 @@ def outcomes():
     return file
 
 
-def touching():
-    """Launches of an oscillator after which it touches the wall, over the phase."""
-    moving = Moving("v", (Fraction(-5), Fraction(0))), Moving("phi", (Fraction(0), Fraction(1, 2)))
-    curve = launches(DAMPED, moving)
-    ((_, step),), short = curve.steps.items(), Derivation(curve.functions)
-    witness = {key: step["witness"][key][:2] for key in ("pieces", "starts")}
-    short.add("touching", step["witness"] | witness)
-    return short
+def flight_arcs():
+    """Launches of an oscillator after which it touches the wall; a ball's fixed points over g."""
+    speed, half = over(DAMPED, ["v", "phi"], ["D(s - x, t)"]), (Fraction(0), Fraction(1, 2))
+    file = Derivation({"G": speed, "B": residual(BALL, ["g"], [1])})
+    add_arc(file, "G", [*map(Fraction, ("-2.08", "0", "2.52"))], half, 2)
+    place = [*map(Fraction, ("1.466", "0.314", "0.1", "6.283"))]
+    add_arc(file, "B", place, (Fraction(1, 10), Fraction(1, 5)), 2)
+    return file
 
 
 def trapping():
@@ -293,7 +292,7 @@ def trapping():
 
 
 EXAMPLES = {
-    "touching": touching,
+    "flight_arcs": flight_arcs,
     "trapping": trapping,
     "outcomes": outcomes,
     "lines": Lines,

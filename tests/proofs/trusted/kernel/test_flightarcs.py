@@ -1,4 +1,4 @@
-"""Curves of grazes: truths beside simulation, lies, and what a slanted box encloses."""
+"""Curves of flights: truths beside simulation, lies, and what a slanted box encloses."""
 
 import json
 import random
@@ -11,8 +11,8 @@ from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.composition import read_map
 from proofs.trusted.kernel.context import Context
 from proofs.trusted.kernel.enclose import enclosed, point_box
+from proofs.trusted.kernel.flightarcs import Slanted, flight_arc
 from proofs.trusted.kernel.returns import Launches
-from proofs.trusted.kernel.touching import Slanted, touching
 from proofs.trusted.kernel.zeros import Piece
 from tests.oracles.judge import oracle
 from tests.proofs.trusted.kernel.systems import SYSTEMS
@@ -42,7 +42,7 @@ def touch(*gaps, values=None, **fields):
 
 def concluded(data, **changes):
     context = Context(functions={"G": read_map("G", Reader(data), {})})
-    return touching(context, Reader(json.loads(json.dumps({**WITNESS, **changes}))))
+    return flight_arc(context, Reader(json.loads(json.dumps({**WITNESS, **changes}))))
 
 
 def bent(rate):
@@ -52,36 +52,51 @@ def bent(rate):
     return {"pieces": [{**PIECE, "box": box, "matrix": matrix}], "points": [], "starts": ["19/20"]}
 
 
+def falling(factor="1", last="-1", start="1/2"):
+    """A gap that falls through 0 at t = 1 where x = p, times a factor; last: of the matrix."""
+    box = [["499/1000", "501/1000"], ["499/1000", "501/1000"], ["199/200", "201/200"]]
+    piece = {**PIECE, "box": box, "matrix": [["1", "0"], ["1/4", last]]}
+    data = touch(f"(1 - t + (x - p)/4)*{factor}", values=["x - p"])
+    return data, {"pieces": [piece], "points": [], "starts": [start]}
+
+
 TRUTHS = [
+    ("an impact", *falling()),
+    ("for all of a range", touch(f"({TOUCH})*k", parameters={"k": ["1", "11/10"]}), {}),
+    ("an impact of some speed", *falling("(2 - t)")),
     ("a parabola", touch(TOUCH), {}),
     ("from the wall", touch(f"({TOUCH})*t"), bent(1)),
     ("another wall later", touch(TOUCH, "6/5 - t"), {}),
     ("an impact later", touch(f"({TOUCH})*(3 - t)/2"), bent(Fraction(-1, 2))),
 ]  # fmt: skip
-NONE, SPEED, FORM = "not proved > 0 up to the time", "the derivative of the first gap", "no angles"
-CONVEX, PLACE, ZERO = "not proved convex", "a start is not between", "Krawczyk"
+NONE, FORM = "not proved > 0 up to the time", "no angles"
+END, PLACE, ZERO = "not proved to end so", "a start is not between", "Krawczyk"
 EARLY = {**PIECE, "box": [["2/5", "3/5"], ["0", "1"], ["2/5", "3/5"]]}
 LIES = [
+    ("an earlier impact", *falling("(t - 1/4)*(t - 1/8)*32/21", start="19/20"), NONE),
+    ("an impact from below", *falling("(3 - 4*t)", "1"), END),
+    ("another wall before the impact", touch("1 - t + (x - p)/4", "9/10 - t", values=["x - p"]),
+     falling()[1], NONE),
     ("an impact before", touch(f"({TOUCH})*(t - 1/4)*(t - 1/8)*32/21"), bent(Fraction(52, 21)),
      NONE),
     ("a touch before", touch(f"({TOUCH})*(4*t - 1)**2/9"), bent(Fraction(8, 3)), NONE),
-    ("a touch between", touch(f"({TOUCH})*(5*t - 4)**2"), {**bent(10), "starts": ["1/2"]}, CONVEX),
+    ("a touch between", touch(f"({TOUCH})*(5*t - 4)**2"), {**bent(10), "starts": ["1/2"]}, END),
     ("another wall before", touch(TOUCH, "1/4 - t"), {}, NONE),
     ("another wall just before", touch(TOUCH, "9/10 - t"), {}, NONE),
     ("another wall at once", touch(TOUCH, TOUCH), {}, NONE),
     ("a launch in the wall", touch("1 - (t - 1)**2 - 1 + p - x"), {}, ZERO),
     ("a touch from below", touch("p - x - (t - 1)**2"), {"pieces": [
-        {**PIECE, "matrix": [["0", "-1"], ["-1/2", "0"]]}], "points": []}, CONVEX),
-    ("a start before it is convex", touch(f"{TOUCH} + (t - 1)**3*2"), {}, CONVEX),
+        {**PIECE, "matrix": [["0", "-1"], ["-1/2", "0"]]}], "points": []}, END),
+    ("a start before it is convex", touch(f"{TOUCH} + (t - 1)**3*2"), {}, END),
     ("a start at the graze", touch(TOUCH), {"starts": ["1"]}, PLACE),
     ("a start in its times", touch(TOUCH), {"starts": ["19/20"]}, PLACE),
     ("a start after it", touch(TOUCH), {"starts": ["2"]}, PLACE),
     ("a start at launch", touch(TOUCH), {"starts": ["0"]}, PLACE),
     ("no start", touch(TOUCH), {"starts": []}, "expected 1"),
     ("another time", touch(TOUCH), {"pieces": [EARLY], "points": []}, ZERO),
-    ("a passage", touch(TOUCH, values=["x - p"]), {}, SPEED),
-    ("another's speed", touch(TOUCH, "9 - t", values=["D(9 - t, t)"]), {}, SPEED),
-    ("the speed first", touch(TOUCH, values=["2*t - 2"]), {}, SPEED),
+    ("a passage", touch(TOUCH, values=["x - p"]), {}, ZERO),
+    ("another's speed", touch(TOUCH, "9 - t", values=["D(9 - t, t)"]), {}, ZERO),
+    ("the speed first", touch(TOUCH, values=["2*t - 2"]), {}, END),
     ("a point elsewhere", touch(TOUCH), {"points": [
         {**WITNESS["points"][0], "box": [["1/4", "1/4"], ["1/2", "1/2"], ["1", "1"]]}]}, "a point"),
     ("too many values", touch(TOUCH, values=["x", f"D({TOUCH}, t)"]), {}, FORM),

@@ -1,4 +1,4 @@
-"""Rule: curves of flights that end in a graze, over a variable."""
+"""Rule: curves of flights over a variable, that end transversally, or in a graze."""
 
 from __future__ import annotations
 
@@ -17,53 +17,66 @@ from proofs.trusted.kernel.flight import Flight
 from proofs.trusted.kernel.formulas import Formulas
 from proofs.trusted.kernel.returns import LATEST, Launches
 from proofs.trusted.kernel.zeros import Piece
-from proofs.trusted.numbers import show_range
+from proofs.trusted.numbers import Range, show_range
 
 _BITS = PRECISIONS[0]
 
 
-def touches(flight: Flight) -> Formulas:
+def timed(flight: Flight) -> Formulas:
     """Return (G, g) as a function of the state and the time, G the values, g the first gap."""
-    formulas = flight.formulas
+    formulas, trees = flight.formulas, (*flight.trees, flight.walls[0])
     roots = (*flight.outcome, flight.gaps[0].orders[0])
-    return replace(formulas, trees=(*flight.trees, flight.walls[0]), roots=roots)
+    own = formulas.variables[: flight.state + 1]  # without parameters that have ranges
+    return replace(formulas, variables=own, trees=trees, roots=roots)
+
+
+def ends_in_a_graze(flight: Flight) -> bool:
+    """Whether the last value is the derivative of the first gap by the time, which then is 0."""
+    return flight.outcome[-1] == flight.gaps[0].orders[1]
 
 
 @dataclass(frozen=True)
-class Touching(Conclusion):
-    """Along an arc of zeros of `touches` each flight has its first impact at the arc's time.
+class FlightArc(Conclusion):
+    """Along an arc of zeros of `timed` each flight has its first impact at the arc's time.
 
-    There G = 0, whose last value is the derivative of the gap by the time: it is a graze.
+    There G = 0; it is a graze if the last value is the speed, and transversal if not.
     """
 
     function: Flight
     arc: Arc
 
     @property
+    def ends(self) -> Range:
+        """Return the values of the axis between which it goes."""
+        return self.arc.ends
+
+    @property
     def sentence(self) -> str:
         flight, arc, t = self.function, self.arc, self.function.time
         gap, axis = flight.walls[0], flight.variables[arc.axis]
         others = ", ".join(f"`{name}`" for name in flight.variables if name != axis)
+        kind = f"transversal: `D({gap}, {t})` < 0"
+        if ends_in_a_graze(flight):
+            kind = f"a graze: `D({gap}, {t})` = 0 < `D({gap}, {t}, {t})`"
         return (
             f"for {flight.definition}: {arc.path}, there is for each `{axis}` in "
-            f"{show_range(arc.ends)} exactly one flight with `{flight.name}` = 0 and `{gap}` = 0 "
-            f"at `{t}`. This is its first impact, a graze: `D({gap}, {t})` = 0 < "
-            f"`D({gap}, {t}, {t})`; {others} and `{t}` are a smooth function of `{axis}`"
-            f"{arc.passed}."
+            f"{show_range(self.ends)} exactly one flight with `{flight.name}` = 0 and `{gap}` = 0 "
+            f"at `{t}`. This is its first impact, {kind}; {others} and `{t}` are a smooth "
+            f"function of `{axis}`{arc.passed}."
         )
 
 
-def touching(context: Context, reader: Reader) -> Touching:
-    """Rule `touching`: {flight function G, axis, pieces, points, starts}.
+def flight_arc(context: Context, reader: Reader) -> FlightArc:
+    """Rule `flight-arc`: {flight function G, axis, pieces, points, starts}.
 
-    G has one value less than variables; the last one is g_t, g being the gap of the impact. axis:
-    the name of a variable. Pieces and points are those of an arc over it of zeros (x, t) of (G, g),
-    see `an_arc`; starts: a time s > 0 for each piece. Hypotheses for each piece, with the times up
-    to e in it, and all launches x from it: s < t; g > 0 on (0, s], other gaps are > 0 on (0, e];
-    g_tt > 0 on [s, e]. Conclusion: `Touching`.
+    G has one value less than variables, of which the axis is one, by its name; g is the gap of the
+    impact. Pieces and points are those of an arc over it of zeros (x, t) of (G, g), see `an_arc`;
+    starts: a time s > 0 for each piece. Hypotheses for each piece, with the times up to e in it,
+    and all launches x from it: s < t; g > 0 on (0, s], other gaps are > 0 on (0, e]; on [s, e] g_t
+    < 0; or, if the last value is g_t, g_tt > 0. Conclusion: `FlightArc`.
 
-    Proof. At a zero (x, t) g = g_t = 0, so that by Taylor's formula at t g > 0 on [s, t): t is the
-    time of the first impact, at which G = 0.
+    Proof. At a zero (x, t) g = 0, and if g_t = 0 too, g > 0 on [s, t) by Taylor's formula at t; so
+    it is if g falls: t is the time of the first impact, at which G = 0.
     """
     function_of, axis_of, pieces_of, points_of, starts_of = reader.fields(
         "function", "axis", "pieces", "points", "starts"
@@ -71,27 +84,25 @@ def touching(context: Context, reader: Reader) -> Touching:
     flight = context.function(function_of)
     if not isinstance(flight, Flight) or flight.circles or flight.size + 1 != flight.state:
         raise function_of.fail("a flight with one value less than variables, no angles, expected")
-    if flight.outcome[-1] != flight.gaps[0].orders[1]:
-        raise function_of.fail("the last value is not the derivative of the first gap by the time")
     if axis_of.string() not in flight.variables:
         raise axis_of.fail("a variable of the function is expected")
     axis = flight.variables.index(axis_of.string())
-    arc = an_arc(touches(flight), axis, pieces_of, points_of)
+    arc = an_arc(timed(flight), axis, pieces_of, points_of)
     count = len(arc.pieces)
     for piece, start in zip(arc.pieces, starts_of.numbers(count, count), strict=True):
-        require_touch(flight, axis, piece, start)
-    return Touching(flight, arc)
+        require_first(flight, axis, piece, start)
+    return FlightArc(flight, arc)
 
 
-def require_touch(flight: Flight, axis: int, piece: Piece, start: Fraction) -> None:
-    """Raise Unproved unless the hypotheses of `touching` about a piece hold."""
+def require_first(flight: Flight, axis: int, piece: Piece, start: Fraction) -> None:
+    """Raise Unproved unless the hypotheses of `flight-arc` about a piece hold."""
     low, end = piece.hull(axis)[-1]
     if not 0 < start < low < end <= LATEST:
         raise Unproved("a start is not between 0 and the times of its piece")
     launches, (gap, *others) = Slanted(flight, axis, piece), flight.gaps
-    (bend,) = launches.on(gap.orders[2:3], Enclosure.of(start, end, _BITS))
-    if bend.lo <= 0:
-        raise Unproved(f"the gap is not proved convex at its touch, {shown(launches.states)}")
+    fall, bend = launches.on(gap.orders[1:3], Enclosure.of(start, end, _BITS))
+    if bend.lo <= 0 if ends_in_a_graze(flight) else fall.hi >= 0:
+        raise Unproved(f"the gap is not proved to end so, {shown(launches.states)}")
     FirstZero(launches, gap).require_none(start)
     for other in others:
         FirstZero(launches, other).require_none(end)
