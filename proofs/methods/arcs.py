@@ -8,8 +8,7 @@ from fractions import Fraction
 from typing import Any, NamedTuple
 
 from intervals import IntervalError, Undecided
-from proofs.methods.formulas import dot
-from proofs.methods.lemmas import krawczyk, middles, newton, require_zero, undecided, written
+from proofs.methods.lemmas import dot, krawczyk, middles, newton, require_zero, undecided, written
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.enclose import Box, centre_of, enclosed, point_box
 from proofs.trusted.kernel.maps import Map

@@ -11,8 +11,7 @@ from typing import Any
 
 from intervals import Undecided
 from proofs.methods.derivation import Derivation
-from proofs.methods.divisions import holds, scale_of
-from proofs.methods.formulas import shares, subdivide
+from proofs.methods.divisions import holds, scale_of, shares, subdivide
 from proofs.trusted.certificate import texts
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.cones import Form, derivatives, difference, positive_definite

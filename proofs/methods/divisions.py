@@ -8,7 +8,8 @@ from fractions import Fraction
 from itertools import islice
 from typing import Any
 
-from proofs.methods.formulas import Tree, shares, subdivide
+from intervals import Undecided
+from intervals.cover import halves
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.covers import LocalMap
 from proofs.trusted.kernel.differential import sharp_values
@@ -16,9 +17,53 @@ from proofs.trusted.kernel.enclose import Box, Differentiable, attempts, enclose
 from proofs.trusted.kernel.flow import Flow
 from proofs.trusted.kernel.maps import Map
 
+_MOST_BOXES = 10_000
+_DEEPEST = 40
 _BITS = 64
 _HALVINGS = 6  # of a box for its image
 _STRIPS, _LEAST = 16, Fraction(1, 2**20)
+Tree = list[Any] | None
+
+
+def subdivide(
+    box: Box, decided: Callable[[Box], bool], scale: Box | None = None, most: int = _MOST_BOXES
+) -> Tree:
+    """Return a tree whose leaves are all decided: undecided boxes are halved, longest side first.
+
+    Sides are compared as parts of those of `scale`, the box itself where none is given. Raises
+    Undecided if that does not end.
+    """
+    left = [most]
+
+    def divide(part: Box, depth: int) -> Tree:
+        left[0] -= 1
+        if left[0] < 0 or depth > _DEEPEST:
+            raise Undecided(f"{most} boxes, divided {_DEEPEST} times, do not suffice")
+        if decided(part):
+            return None
+        axis, *sides = halved(part, scale or box)
+        cut = sides[0][axis][1]
+        return [str(axis + 1), str(cut), *(divide(side, depth + 1) for side in sides)]
+
+    return divide(box, 0)
+
+
+def halved(box: Box, scale: Box) -> tuple[int, Box, Box]:
+    """Return the place of the side that is longest as a part of a scale's, and both halves of it.
+
+    Undecided where the box is a point.
+    """
+    lengths = shares(box, scale)
+    axis = lengths.index(max(lengths))
+    if not lengths[axis]:
+        raise Undecided("not decided at a point")
+    lower, upper = ((*box[:axis], half, *box[axis + 1 :]) for half in halves(box[axis]))
+    return axis, lower, upper
+
+
+def shares(box: Box, scale: Box) -> list[Fraction]:
+    """Return the sides of a box as parts of those of a scale, where these are no points."""
+    return [(b - a) / (d - c or 1) for (a, b), (c, d) in zip(box, scale, strict=True)]
 
 
 def holds(map_: Differentiable, box: Box, test: Callable[[list[Enclosure]], bool]) -> bool:

@@ -1,7 +1,7 @@
 """Lemma files: find the witnesses of rules about formulas, and write them down.
 
-Each method of Lemmas finds the witness of the rule of its name with the package `intervals` and
-adds a step, which the checker's rule concludes. Raises Undecided where no witness is found,
+Each method of Lemmas finds the witness of the rule of its name with the checker's enclosures and
+adds a step, which the rule concludes. Raises Undecided where no witness is found,
 Unproved where the rule denies one.
 """
 
@@ -13,22 +13,13 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
-from intervals import Interval, Undecided, decimal_bounds
+from intervals import Undecided, decimal_bounds
 from proofs.methods.derivation import Derivation
-from proofs.methods.formulas import (
-    Tree,
-    Values,
-    dot,
-    enclosed,
-    inverse,
-    subdivide,
-    values,
-)
+from proofs.methods.divisions import Tree, holds, subdivide
 from proofs.trusted.certificate import Malformed, Reader, texts
 from proofs.trusted.kernel import zeros
 from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
-from proofs.trusted.kernel.enclose import Box, Differentiable, centre_of, point_box
-from proofs.trusted.kernel.enclose import enclosed as box_of
+from proofs.trusted.kernel.enclose import Box, Differentiable, centre_of, enclosed, point_box
 from proofs.trusted.kernel.formulas import Formulas, read_formulas
 from proofs.trusted.kernel.head import read_function
 from proofs.trusted.kernel.maps import Map
@@ -37,7 +28,7 @@ from proofs.trusted.kernel.solutions import Expressions
 from proofs.trusted.kernel.trees import formula
 from proofs.trusted.kernel.values import Equal, Series
 from proofs.trusted.kernel.zeros import Piece, Rows
-from proofs.trusted.numbers import Range
+from proofs.trusted.numbers import Range, within
 
 _COARSE_DIGITS = 3
 _UNUSED = (Fraction(0), Fraction(0))  # the side of x where there is no variable
@@ -64,8 +55,8 @@ def bounds_of(text: str, box: Mapping[str, Range], sign: int) -> tuple[Range, Tr
     """Bound a formula that has a sign on a box; return bounds with room, and a subdivision."""
     ranges: list[Range] = []
 
-    def decided(part: Values) -> bool:
-        low, high = sorted((sign * part[0].inf, sign * part[0].sup))
+    def decided(part: Range) -> bool:
+        low, high = sorted((sign * part[0], sign * part[1]))
         if low > 0:
             ranges.append((low, high))
         return low > 0
@@ -78,11 +69,11 @@ def bounds_of(text: str, box: Mapping[str, Range], sign: int) -> tuple[Range, Tr
     return (low, high), tree
 
 
-def _divided(text: str, box: Mapping[str, Range], decided: Callable[[Values], bool]) -> Tree:
+def _divided(text: str, box: Mapping[str, Range], decided: Callable[[Range], bool]) -> Tree:
     """Divide a box until the enclosures of a formula decide; variables in alphabetical order."""
     formulas = read_formulas(Reader(text))
     sides = tuple(box.get(name, _UNUSED) for name in formulas.variables)
-    return subdivide(sides, lambda part: decided(enclosed(formulas, part)))
+    return subdivide(sides, lambda part: holds(formulas, part, lambda x: decided(x[0].range)))
 
 
 def witness_of(lemma: Equal | Series) -> dict[str, Any]:
@@ -137,7 +128,7 @@ class Lemmas(Derivation):
         """
         (low, high), sides, tree = exact([bounds])[0], _sides(box), None
         if any(first < last for first, last in sides.values()):
-            tree = _divided(text, sides, lambda v: low <= v[0].inf and v[0].sup <= high)
+            tree = _divided(text, sides, lambda part: within(part, (low, high)))
         return self._value(text, sides, (low, high), tree)
 
     def sign(self, text: str, sign: int, **box: tuple[Number, Number]) -> str:
@@ -148,9 +139,10 @@ class Lemmas(Derivation):
     def bounds(self, text: str, digits: int, bits: int, **box: Range) -> Range:
         """Add a step `formula-value` with as narrow bounds as a box allows; return them."""
         formulas = read_formulas(Reader(text))
-        sides = [Interval(*box.get(x, _UNUSED), precision=bits) for x in formulas.variables]
-        (value,) = values(formulas, sides)
-        lower, upper = map(Fraction, decimal_bounds(value.inf, value.sup, digits))
+        sides = tuple(box.get(x, _UNUSED) for x in formulas.variables)
+        with undecided():
+            (value,) = formulas.values(enclosed(sides, bits))
+        lower, upper = map(Fraction, decimal_bounds(*value.range, digits))
         self._value(text, _sides(box), (lower, upper), None)
         return lower, upper
 
@@ -200,7 +192,7 @@ def newton(
     with undecided():
         for _ in range(_STEPS):
             matrix = _inverse_at(map_, centre, moving)
-            defect = middles(map_.values(box_of(point_box(centre), bits)))
+            defect = middles(map_.values(enclosed(point_box(centre), bits)))
             last = list(centre)
             for k, row in zip(moving, matrix, strict=True):
                 centre[k] = _rounded(centre[k] - dot(row, defect), places)
@@ -265,6 +257,27 @@ def middles(values: Sequence[Enclosure]) -> tuple[Fraction, ...]:
     return centre_of(tuple(value.range for value in values))
 
 
+def dot(row: Sequence[Any], column: Sequence[Any]) -> Any:
+    """Return the sum of the products."""
+    return sum((a * b for a, b in zip(row, column, strict=True)), 0)
+
+
+def inverse(matrix: Rows) -> tuple[tuple[Fraction, ...], ...]:
+    """Return the exact inverse (Gauss and Jordan), or raise Undecided."""
+    n = len(matrix)
+    rows = [[*row, *(Fraction(int(i == j)) for j in range(n))] for i, row in enumerate(matrix)]
+    for k in range(n):
+        pivot = next((i for i in range(k, n) if rows[i][k]), None)
+        if pivot is None:
+            raise Undecided("a singular matrix")
+        rows[k], rows[pivot] = rows[pivot], rows[k]
+        rows[k] = [entry / rows[k][k] for entry in rows[k]]
+        for i in range(n):
+            if i != k and (factor := rows[i][k]):
+                rows[i] = [a - factor * b for a, b in zip(rows[i], rows[k], strict=True)]
+    return tuple(tuple(row[n:]) for row in rows)
+
+
 def _sides(box: Named) -> dict[str, Range]:
     """Return a box with exact ends, in alphabetical order."""
     return dict(zip(sorted(box), exact([box[name] for name in sorted(box)]), strict=True))
@@ -278,6 +291,6 @@ def _inverse_at(
     map_: Map, point: Sequence[Fraction], places: Sequence[int]
 ) -> list[list[Fraction]]:
     """Return about the inverse of the derivative by some variables at a point."""
-    rows = map_.jacobian(box_of(point_box(point), _BITS))
+    rows = map_.jacobian(enclosed(point_box(point), _BITS))
     exact_inverse = inverse(tuple(middles([row[k] for k in places]) for row in rows))
     return [[_rounded(entry) for entry in row] for row in exact_inverse]

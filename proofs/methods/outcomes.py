@@ -12,7 +12,7 @@ import numpy as np
 
 from intervals import Undecided
 from proofs.methods.derivation import Derivation
-from proofs.methods.formulas import subdivide
+from proofs.methods.divisions import subdivide
 from proofs.methods.sampling import Floats, Sampled, compiled
 from proofs.trusted.certificate import Reader, texts
 from proofs.trusted.kernel.arithmetic import Unproved

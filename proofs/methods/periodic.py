@@ -16,9 +16,8 @@ from typing import cast
 
 from intervals import Undecided
 from proofs.methods.derivation import Derivation
-from proofs.methods.formulas import dot, inverse
 from proofs.methods.grammar import typed
-from proofs.methods.lemmas import middles, undecided, written
+from proofs.methods.lemmas import dot, inverse, middles, undecided, written
 from proofs.methods.newton import cycles, seeds
 from proofs.methods.sampling import Sampled
 from proofs.trusted.certificate import texts

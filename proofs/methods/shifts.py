@@ -15,9 +15,9 @@ import numpy as np
 from intervals import Undecided
 from proofs.methods.cones import add_cone, graph_of
 from proofs.methods.derivation import Derivation
-from proofs.methods.divisions import holds, scale_of
-from proofs.methods.formulas import Tree, inverse, subdivide
+from proofs.methods.divisions import Tree, holds, scale_of, subdivide
 from proofs.methods.frames import Frames, crossing, frames, laps, widened
+from proofs.methods.lemmas import inverse
 from proofs.methods.newton import distance
 from proofs.methods.sampling import Floats, Sampled
 from proofs.trusted.certificate import texts

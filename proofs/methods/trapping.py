@@ -10,8 +10,7 @@ import numpy as np
 
 from intervals import Undecided
 from proofs.methods.derivation import Derivation
-from proofs.methods.divisions import holds, scale_of
-from proofs.methods.formulas import Tree, subdivide
+from proofs.methods.divisions import Tree, holds, scale_of, subdivide
 from proofs.methods.newton import seeds
 from proofs.methods.sampling import Floats, Sampled
 from proofs.trusted.certificate import texts

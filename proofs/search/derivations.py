@@ -1,7 +1,7 @@
 """Claims about formulas: find the proof of whatever they follow from.
 
-Expressions for unknowns are found with sympy, values with the package `intervals`; equalities and
-power series are proved by the checker's rules, by exact normal forms.
+Expressions for unknowns are found with sympy; equalities and power series are proved by the
+checker's rules, by exact normal forms.
 """
 
 from __future__ import annotations
@@ -13,9 +13,8 @@ from fractions import Fraction
 from types import MappingProxyType
 from typing import Any
 
-from intervals import Interval, Undecided, decimal_bounds
+from intervals import Undecided, decimal_bounds
 from proofs.methods.derivation import concluded
-from proofs.methods.formulas import values
 from proofs.methods.lemmas import solution_witness, witness_of
 from proofs.search.evidence import Evidence
 from proofs.search.request import Request
@@ -24,7 +23,7 @@ from proofs.trusted.kernel import trees
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.conclusion import Conclusion
 from proofs.trusted.kernel.context import Context
-from proofs.trusted.kernel.enclose import size
+from proofs.trusted.kernel.enclose import enclosed, point_box, tried
 from proofs.trusted.kernel.formulas import on_tape
 from proofs.trusted.kernel.solutions import Expressions
 from proofs.trusted.kernel.values import Equal, Series, Value
@@ -36,21 +35,20 @@ from proofs.trusted.paper.formulas import (
 )
 from proofs.trusted.verdicts import Row
 
-SPARE_BITS = 40
+SPARE_DIGITS = 12
 Solvers = Mapping[Unknowns, Callable[[Unknowns], dict[str, str]]]  # expressions by sympy
 
 
 def enclose(formula: str, digits: int, **point: Fraction) -> Range:
-    """Enclose a formula at a point: decimal bounds of so many significant digits.
-
-    The precision has room for what digits of the point's coordinates cancel.
-    """
+    """Enclose a formula at a point: decimal bounds of so many significant digits."""
     formulas = on_tape(trees.formula(formula))
-    bits = digits * 4 + SPARE_BITS + sum(map(size, point.values()))
-    inputs = [Interval(point.get(name, 0), precision=bits) for name in formulas.variables]
-    (value,) = values(formulas, inputs)
-    lower, upper = decimal_bounds(value.inf, value.sup, digits)
-    return Fraction(lower), Fraction(upper)
+    box = point_box([point.get(name, Fraction(0)) for name in formulas.variables])
+    for (value,) in tried(lambda bits: formulas.values(enclosed(box, bits))):
+        low, high = value.range
+        if (high - low) * 10 ** (digits + SPARE_DIGITS) <= abs(low):
+            lower, upper = map(Fraction, decimal_bounds(low, high, digits))
+            return lower, upper
+    raise Undecided(f"{digits} digits of {formula}")
 
 
 @dataclass

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from intervals import Undecided
 from intervals.cover import PartsExhausted, cover
 from proofs.methods.derivation import Derivation
-from proofs.methods.formulas import halved
+from proofs.methods.divisions import halved
 from proofs.motion.digits import to_digits
 from proofs.motion.landing import separation_phase
 from proofs.motion.system import System

@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import islice, product
 
 from intervals.cover import cover
-from proofs.methods.formulas import halved
+from proofs.methods.divisions import halved
 from proofs.search.s33_rectangles import (
     Sets,
     image_phases,

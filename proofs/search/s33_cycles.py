@@ -8,7 +8,7 @@ from contextlib import suppress
 from fractions import Fraction
 
 from intervals import Undecided
-from proofs.methods.formulas import inverse
+from proofs.methods.lemmas import inverse
 from proofs.motion.simulate import TURNS, landing
 from proofs.motion.system import System
 from proofs.search.evidence import FAILED

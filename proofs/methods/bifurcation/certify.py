@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
-from intervals import Interval, Undecided
+from intervals import Undecided
 from proofs.methods import derive
 from proofs.methods.bifurcation.classify import classified
 from proofs.methods.bifurcation.maps import Map
 from proofs.methods.bifurcation.normal_forms import NormalForm
-from proofs.methods.formulas import dot, inverse, jacobian, values
-from proofs.methods.lemmas import Lemmas, derived
+from proofs.methods.lemmas import Lemmas, derived, dot, inverse, middles, undecided
 from proofs.trusted.certificate import Reader
+from proofs.trusted.kernel.enclose import enclosed, point_box
 from proofs.trusted.kernel.formulas import read_formulas
 from proofs.trusted.kernel.trees import formula
 from proofs.trusted.numbers import Range
@@ -160,9 +160,10 @@ def _newton(
     formulas = read_formulas(*map(Reader, texts))
     places = [formulas.variables.index(name) for name in names]
     for _ in range(_NEWTON if len(names) else 0):
-        inputs = [Interval(guess.get(x, 0), precision=bits) for x in formulas.variables]
-        defect = [v.mid for v in values(formulas, inputs)]
-        rows = [[row[i].mid for i in places] for row in jacobian(formulas, inputs)]
+        point = enclosed(point_box([guess.get(x, Fraction(0)) for x in formulas.variables]), bits)
+        with undecided():
+            defect = middles(formulas.values(point))
+            rows = [middles([row[i] for i in places]) for row in formulas.jacobian(point)]
         chosen = _independent(rows, len(names))
         matrix = inverse(tuple(tuple(rows[i]) for i in chosen))
         steps = [dot(row, [defect[i] for i in chosen]) for row in matrix]
@@ -176,7 +177,7 @@ def _newton(
     return guess
 
 
-def _independent(rows: list[list[Fraction]], count: int) -> list[int]:
+def _independent(rows: Sequence[Sequence[Fraction]], count: int) -> list[int]:
     """Return the places of rows that are independent, the clearest first."""
     left, chosen = [list(row) for row in rows], list[int]()
     for column in range(count):

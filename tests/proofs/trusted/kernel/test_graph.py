@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from intervals import Undecided
-from proofs.methods.formulas import inverse
+from proofs.methods.lemmas import inverse
 from proofs.methods.symbolic import SymbolicLemmas
 from proofs.trusted.certificate import SCHEMA, Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
