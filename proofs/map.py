@@ -19,6 +19,7 @@ from proofs.methods.grammar import GrammarError, as_typed, canonical, name, name
 from proofs.theorem import Theorem
 from proofs.trusted.certificate import Malformed, texts
 from proofs.trusted.kernel.arithmetic import Unproved
+from proofs.trusted.kernel.meter import DEFAULT
 from proofs.trusted.numbers import Range, show_range
 
 Box = Mapping[str, Sequence[Exact]]  # by variables
@@ -168,7 +169,9 @@ class Map:
 
     def stable(self, longest: int = _LONGEST, box: Box | None = None) -> Theorem:
         """Prove the attracting periodic orbits, up to a period, that points at random come to."""
-        return self._proved(self._followed(longest, box).orbits, is_attracting=True)
+        if not (orbits := self._followed(longest, box).orbits):
+            raise Undecided(f"none is seen, of a period up to {longest}")
+        return self._proved(orbits, is_attracting=True)
 
     def horseshoe(self, box: Box | None = None, longest: int = 2) -> Theorem:
         """Prove a full shift on two symbols, of the map or an iterate; sets are found.
@@ -194,12 +197,16 @@ class Map:
         raise Undecided(reason + hint * (longest < _ITERATES and not self.ranges))
 
     def periodic_orbits(self, period: int, box: Box) -> Theorem:
-        """Prove which periodic orbits a formula has in a box, and that there are no others."""
+        """Prove which periodic orbits a formula has in a box, and that there are no others.
+
+        In the work that a check has by default; each more of effort allows twice as much.
+        """
         from proofs.methods.periodic import prove_all_orbits
 
         file = self._derivation()
         sides = self.region(box)
-        return theorem_of(file, [prove_all_orbits(file, self.function, period, sides)])
+        work = int(DEFAULT * self._share)
+        return theorem_of(file, [prove_all_orbits(file, self.function, period, sides, work)])
 
     def branches(self, **parameter: Ends) -> Theorem:
         """Follow the fixed points that are found at the low end of a parameter's range, up to high.

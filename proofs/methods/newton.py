@@ -38,7 +38,9 @@ class Cycle(NamedTuple):
 
     @property
     def multipliers(self) -> Floats:
-        """The absolute values of the multipliers, in increasing order."""
+        """The absolute values of the multipliers, in increasing order; nan without a derivative."""
+        if not np.isfinite(self.derivative).all():
+            return np.full(len(self.derivative), np.nan)
         return np.asarray(np.sort(np.abs(np.linalg.eigvals(self.derivative))))
 
     @property
@@ -173,6 +175,8 @@ def prove_orbits(file: Derivation, function: str, cycles: Sequence[Cycle]) -> li
 def _prove_orbit(file: Derivation, function: str, cycle: Cycle) -> str:
     """Add a step `periodic-orbit` about an orbit; raises Unproved where that is not concluded."""
     map_, n = file.map(function), len(cycle.points)
+    if not np.isfinite(cycle.derivative).all():
+        raise Unproved("the map has no derivative on it, as far as is seen")
     matrix = np.linalg.inv(cycle.derivative - np.eye(len(map_.variables)))
     rows = [tuple(Fraction(f"{entry:.10g}") for entry in row) for row in matrix]
     witness: dict[str, Any] = {"function": function, "period": str(n)}

@@ -11,7 +11,6 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from fractions import Fraction
-from itertools import islice
 from typing import cast
 
 from intervals import Undecided
@@ -25,12 +24,12 @@ from proofs.trusted.kernel.arithmetic import Enclosure, Unproved
 from proofs.trusted.kernel.covers import Rows, images
 from proofs.trusted.kernel.enclose import enclosed, point_box
 from proofs.trusted.kernel.formulas import Formulas
+from proofs.trusted.kernel.meter import DEFAULT, Exhausted, metered
 from proofs.trusted.kernel.periodic import Closing, Search
 from proofs.trusted.numbers import Range, show, within
 
 _STARTS = 400  # points at random for each period
 _SMALLEST = 1 << 40  # side of a tube from which Newton's method begins, in 2^-64 of the box's
-_MOST_TUBES = 50_000
 _STEPS, _BITS = 30, 160  # of Newton's method
 _PLACE, _RADIUS = Fraction(1, 10**26), Fraction(1, 10**22)  # of points
 _EDGE = 2 * _RADIUS  # about points: what is so near to a side of the box is on it
@@ -39,10 +38,13 @@ _SAME = 15  # decimal places of points that are told apart
 Point = tuple[Fraction, ...]
 
 
-def prove_all_orbits(file: Derivation, function: str, period: int, box: Sequence[Range]) -> str:
+def prove_all_orbits(
+    file: Derivation, function: str, period: int, box: Sequence[Range], work: int = DEFAULT
+) -> str:
     """Add a step `periodic-orbits`: all orbits of a formula in a box whose period divides one.
 
-    Raises Undecided where an orbit is not isolated, or at the edge, or the rule does not conclude.
+    Raises Undecided where an orbit is not isolated, or at the edge, or the rule does not conclude
+    within some work.
     """
     formula = file.map(function)
     if not isinstance(formula, Formulas) or formula.circles or formula.ranges:
@@ -53,18 +55,24 @@ def prove_all_orbits(file: Derivation, function: str, period: int, box: Sequence
         )
     if period < 1:
         raise ValueError("a period is at least 1")
+    if any(low == high for low, high in box):
+        raise ValueError("a side of the box is a point: give it two ends")
     orbits = Orbits(file, function, period, tuple(box))
-    with suppress(Unproved, Undecided):
-        for start, n in _seen(formula, period, box):
-            orbits.add(start, n)
-        return orbits.prove()
-    with undecided():
-        tubes = Search(formula, tuple(box), period, ()).open_tubes(_SMALLEST)
-        for tube in islice(tubes, _MOST_TUBES):
-            orbits.add(middles(tube[0]), period)
-        if next(tubes, None):
-            raise Undecided(f"{_MOST_TUBES} parts of the box may hold periodic orbits")
-        return orbits.prove()
+    try:
+        with metered(work):
+            with suppress(Unproved, Undecided):
+                for start, n in _seen(formula, period, box):
+                    orbits.add(start, n)
+                return orbits.prove()
+            with undecided():
+                for tube in Search(formula, tuple(box), period, ()).open_tubes(_SMALLEST):
+                    orbits.add(middles(tube[0]), period)
+                return orbits.prove()
+    except Exhausted:
+        raise Undecided(
+            "it takes too long to prove that there are no others: some may be next to each other, "
+            "or not isolated; give a smaller box, or a smaller period"
+        ) from None
 
 
 def _seen(formula: Formulas, period: int, box: Sequence[Range]) -> Iterator[tuple[Point, int]]:

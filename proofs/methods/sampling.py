@@ -134,7 +134,7 @@ class Sampled:
     def undefined(self, part: Map, x: Floats) -> str:
         """Say why a point, a column, has no image under one of the parts."""
         if isinstance(part, Formulas):
-            return "where the map is not defined"
+            return "where the map is not defined, or too large for floating point"
         if isinstance(part, Flow):
             return Flown(part, self._parameters(part.ranges), compiled).undefined(x)
         if not isinstance(part, Flight):

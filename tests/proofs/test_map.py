@@ -5,6 +5,7 @@ import math
 import re
 import time
 import tomllib
+from contextlib import suppress
 from fractions import Fraction
 from functools import cache
 
@@ -137,6 +138,23 @@ def test_an_orbit_that_is_not_proved_attracting_does_not_answer_for_one():
     nearly = Map("x*(1 - x^2)")
     with pytest.raises(Undecided):
         nearly.stable(box={"x": ("-0.5", "0.5")})
+
+
+@pytest.mark.parametrize(
+    ("formulas", "period", "reason"),
+    [
+        (["1 - y + abs(x)", "x"], 6, "no derivative"),  # the Gingerbreadman's, through x = 0
+        (["abs(x)/2"], 1, r"1 .* such as that through \(0\): the map has no derivative on it"),
+        (["abs(y) - abs(x)", "x"], 1, "no derivative"),
+    ],
+)
+def test_an_orbit_through_a_kink_is_not_proved(formulas, period, reason):
+    map_ = Map(*formulas)
+    with pytest.raises(Undecided, match=reason):
+        map_.orbits(period)
+    for ask in (map_.stable, map_.horseshoe, map_.seen):
+        with suppress(Undecided):
+            ask()
 
 
 def test_an_attracting_orbit_of_three_variables():
@@ -606,6 +624,7 @@ def test_all_orbits_and_images_are_asked_of_the_command(capsys):
         (["--map", "-x"], "30 come to no attracting orbit of a period up to 8\n"),
         (["--map", "r*x", "--set", "r=0:2"], "exist: no isolated one is seen\n"),
         (["--map", "1 - r*x^2", "--set", "r=-1:3"], "narrower ranges do: r in [0.5, 1.5]\n"),
+        (["--map", "exp(9*x)"], "is not defined, or too large for floating point"),
         (["--map", "x/2"], "of 30 points at random, x in [-3, 3], 30 are followed"),
         (
             ["--example", "wall", "--box", "v=-1:2"],
@@ -617,6 +636,14 @@ def test_all_orbits_and_images_are_asked_of_the_command(capsys):
 def test_what_becomes_of_points_is_said(arguments, told, capsys):
     main([*arguments, "--ask", "orbits:1", "--effort", "1"])
     assert told in capsys.readouterr().out
+
+
+def test_what_floating_point_does_not_see_is_not_said(capsys):
+    """The image of x + 1 is that of x, or differs by 2: not always by the same number of turns."""
+    assert main(["--map", "x/abs(x)", "--ask", "stable"]) == 0
+    assert "angle" not in capsys.readouterr().out
+    assert main(["--map", "2*x", "--ask", "stable"]) == 1
+    assert "exists: none is seen, of a period up to 8\n" in capsys.readouterr().out
 
 
 @pytest.mark.slow
