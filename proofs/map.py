@@ -17,14 +17,14 @@ from intervals import Undecided
 from proofs.methods.ends import Ends, Exact, box_of, exact_sides, listed, optional
 from proofs.methods.grammar import GrammarError, as_typed, canonical, name, names, typed
 from proofs.theorem import Theorem
-from proofs.trusted.certificate import Malformed, texts
+from proofs.trusted.certificate import Malformed
 from proofs.trusted.kernel.arithmetic import Unproved
 from proofs.trusted.kernel.meter import DEFAULT
 from proofs.trusted.numbers import Range, show_range
 
 Box = Mapping[str, Sequence[Exact]]  # by variables
 
-_DIGITS, _BITS = 12, 128  # of images
+_BITS = 128  # of periods
 EFFORT = 3
 _PARTS = Fraction(1, 4), Fraction(1, 16), Fraction(1, 64)  # of ranges that are too wide
 _POINTS, _PASSED, _LONGEST = 1500, 4, 8  # of a picture; periods that are looked for
@@ -147,15 +147,10 @@ class Map:
 
         trapping(x=("-1.3", "1.3"), y=("-0.4", "0.4")); others: boxes as {"x": (low, high), ...}.
         """
-        from proofs.methods.lemmas import undecided
         from proofs.methods.trapping import prove_trapping
 
-        file, boxes = (
-            self._derivation(),
-            [box_of(self.variables, each) for each in (state, *others)],
-        )
-        with undecided():
-            return theorem_of(file, [prove_trapping(file, self.function, boxes)])
+        file, boxes = self._derivation(), [box_of(self.variables, x) for x in (state, *others)]
+        return theorem_of(file, [prove_trapping(file, self.function, boxes)])
 
     def orbits(
         self, period: int = 1, box: Box | None = None, near: Sequence[Mapping[str, Exact]] = ()
@@ -356,19 +351,9 @@ class Map:
         return [sides.get(each, side) for each, side in zip(self.variables, around, strict=True)]
 
     def _image(self, file: Any, function: str, state: Mapping[str, Ends]) -> Theorem:
-        from proofs.methods.divisions import image_of
-        from proofs.methods.lemmas import undecided
-        from proofs.trusted.numbers import ceil_text, floor_text
+        from proofs.methods.trapping import prove_image
 
-        box = box_of(self.variables, state)
-        with undecided():
-            tree, image = image_of(file.map(function), box, _BITS)
-        bounds = [
-            [str(Fraction(floor_text(low, _DIGITS))), str(Fraction(ceil_text(high, _DIGITS)))]
-            for low, high in image
-        ]
-        witness = {"function": function, "box": list(map(texts, box)), "tree": tree}
-        return theorem_of(file, [file.add("image", {**witness, "bounds": bounds})])
+        return theorem_of(file, [prove_image(file, function, box_of(self.variables, state))])
 
 
 def theorem_of(file: Any, steps: Sequence[str]) -> Theorem:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from functools import partial
 from math import e
 from typing import NamedTuple
 
@@ -39,18 +40,22 @@ def followed(sampled: Sampled, box: Sequence[Range], longest: int) -> Followed:
     for _ in range(steps):
         after = sampled.reduced(sampled(x))
         goes_on = np.isfinite(after).all(axis=0) & (np.abs(after) < FAR).all(axis=0)
-        ends.update(_end(sampled, point[:, None]) for point in x.T[~goes_on])
+        ends.update(map(partial(_end, sampled), x.T[~goes_on], after.T[~goes_on]))
         x = after[:, goes_on]
     return Followed(x, ends, steps, _attractors(sampled, x, longest))
 
 
-def _end(sampled: Sampled, x: Floats) -> str:
+def _end(sampled: Sampled, point: Floats, image: Floats) -> str:
     """Say why a point has no image, or goes far away."""
-    for part in sampled.parts:
-        before, x = x, Sampled(part, sampled.shares)(x)
-        if not np.isfinite(x).all():
-            return sampled.undefined(part, before)
-    return f"beyond {FAR:g}"
+    if np.isfinite(image).all():
+        return f"beyond {FAR:g}"
+    *parts, last = sampled.parts
+    for part in parts:
+        image = Sampled(part, sampled.shares)(point[:, None])[:, 0]
+        if not np.isfinite(image).all():
+            return sampled.undefined(part, point[:, None])
+        point = image
+    return sampled.undefined(last, point[:, None])
 
 
 @np.errstate(all="ignore")
@@ -99,21 +104,26 @@ def _comes_to(sampled: Sampled, point: Floats, cycle: Cycle) -> bool:
 
 def _angles(sampled: Sampled, x: Floats) -> list[str]:
     """Say which variables without a period could have one, from points at random."""
-    lines, x = [], x[:, np.isfinite(sampled(x)).all(axis=0)]
+    lines, after = [], sampled(x)
+    x, after = (each[:, np.isfinite(after).all(axis=0)] for each in (x, after))
     for k, name in enumerate(sampled.map.variables):
         if np.isfinite(sampled.periods[k]) or not x.size:
             continue
+
+        def has(period: float, k: int = k) -> bool:
+            return _respects(sampled, x, after, k, period)
+
         for text, period in _ANGLES:
-            if _respects(sampled, x, k, period) and not _respects(sampled, x, k, period / e):
+            if has(period) and not has(period / e):
                 lines.append(f"{name} may be an angle: give it the period {text}")
                 break
     return lines
 
 
-def _respects(sampled: Sampled, x: Floats, k: int, period: float) -> bool:
+def _respects(sampled: Sampled, x: Floats, after: Floats, k: int, period: float) -> bool:
     """Whether a variable may have a period: with it added images are the same, but for turns."""
     turned = np.array(x)
     turned[k] += period
-    change = (sampled(turned) - sampled(x)) / period
+    change = (sampled(turned) - after) / period
     change[k] -= np.round(change[k, 0])  # so many whole ones at all points
     return bool((np.abs(change) < _NEUTRAL).all())

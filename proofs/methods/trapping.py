@@ -10,7 +10,8 @@ import numpy as np
 
 from intervals import Undecided
 from proofs.methods.derivation import Derivation
-from proofs.methods.divisions import Tree, holds, scale_of, subdivide
+from proofs.methods.divisions import Tree, holds, image_of, scale_of, subdivide
+from proofs.methods.lemmas import undecided
 from proofs.methods.newton import seeds
 from proofs.methods.sampling import Floats, Sampled
 from proofs.trusted.certificate import texts
@@ -21,19 +22,28 @@ from proofs.trusted.kernel.trapping import outside, sides_of
 from proofs.trusted.numbers import Range, ceil_text, floor_text, hull
 
 _MOST_BOXES = 1000  # of a tree
-_DIGITS = 12  # of bounds
+_DIGITS, _BITS = 12, 128  # of bounds; of an image that is asked for
 _SEEN = 200  # points at random that are looked at where images are not proved to be inside
 
 
+def prove_image(file: Derivation, function: str, box: Box) -> str:
+    """Add bounds on the image of a box; raises Undecided."""
+    with undecided():
+        tree, image = image_of(file.map(function), box, _BITS)
+        return _add(file, function, box, tree, [*map(_rounded, image)])
+
+
 def prove_trapping(file: Derivation, function: str, boxes: Sequence[Box]) -> str:
-    """Add the images of boxes, and that their union holds them; raises Undecided or Unproved."""
+    """Add the images of boxes, and that their union holds them; raises Undecided."""
     map_ = file.map(function)
-    images = []
-    for box in boxes:
-        tree, bounds = _image(map_, box, boxes)
-        witness = {"function": function, "box": list(map(texts, box)), "tree": tree}
-        images.append(file.add("image", {**witness, "bounds": list(map(texts, bounds))}))
-    return file.add("trapping", {"images": images})
+    with undecided():
+        images = [_add(file, function, box, *_image(map_, box, boxes)) for box in boxes]
+        return file.add("trapping", {"images": images})
+
+
+def _add(file: Derivation, function: str, box: Box, tree: Tree, bounds: Sequence[Range]) -> str:
+    witness = {"function": function, "box": list(map(texts, box)), "tree": tree}
+    return file.add("image", {**witness, "bounds": list(map(texts, bounds))})
 
 
 def _image(map_: Map, box: Box, union: Sequence[Box]) -> tuple[Tree, Box]:
