@@ -131,8 +131,9 @@ class Map:
     def respelled(self) -> list[str]:
         """Say which names of variables and parameters the theorems spell otherwise, if any are."""
         names = dict.fromkeys(self.variables)
-        for function in self.functions.values():
-            names.update(function.get("parameters", {}))
+        for each in self.functions.values():
+            motions = [motion["name"] for motion in each.get("motion", ())]
+            names |= dict.fromkeys([*each.get("parameters", {}), *motions, *each.get("state", ())])
         pairs = [f"`{each}` is {typed(each)}" for each in names if typed(each) != each]
         return [f"In what follows {', '.join(pairs)}.", ""] if pairs else []
 

@@ -19,17 +19,17 @@ from proofs.trusted.rules import RULES
 ROOT = Path(__file__).parents[1]
 GENERATED = ["docs/api.md", "docs/systems.md"]
 BUDGETS = {
-    "proofs": 55_110,
+    "proofs": 55_080,
     "proofs/trusted": 23_335,
     "proofs/search, proofs/motion": 7_625,
     "proofs/shell": 1_465,
     "proofs/benchmark": 1_800,
     "proofs/stress": 1_150,
-    "tests": 44_575,
+    "tests": 44_630,
     "words of the docs": 12_000,  # of those that are written by hand, the README with them
     "rules outside the kernel": 17,
     "loose modules": 9,  # of the package proofs
-    "tracked files": 864,
+    "tracked files": 863,
     "headline": 7_005,  # lines of the files that run to check reports/horseshoe.json
     "way of H2": 7_441,  # lines of the files that run to prove H2 and to check it
     "way of H2, files": 46,

@@ -219,7 +219,8 @@ def add_subject(parser: Parser) -> None:
     parser.add_argument("file", nargs="?", type=_file, metavar="FILE", help="a system's file")
     names = ", ".join(System.examples())
     parser.add_argument("--example", metavar="NAME", help=f"a published system: {names}")
-    parser.add_argument("--map", nargs="+", metavar="FORMULA", help="the formulas of a map")
+    help_text = "the formulas of a map, for its variables from a to z"
+    parser.add_argument("--map", nargs="+", metavar="FORMULA", help=help_text)
     help_text = "the period of a variable of --map that is an angle"
     parser.add_argument("--period", nargs="+", type=_pair, metavar="NAME=P", help=help_text)
     help_text = "parameters; a range, LOW:HIGH, means all of its values"

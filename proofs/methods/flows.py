@@ -120,6 +120,18 @@ class Flown:
         return at
 
 
+def closer(
+    time: Floats, gap: Floats, slope: Floats, low: Floats, high: Floats
+) -> tuple[Floats, Floats, Floats]:
+    """Return a time nearer to that at which a gap falls to 0, and the times between which it does.
+
+    Newton's, or the middle: his may be that of the launch.
+    """
+    low, high = np.where(gap > 0, (time, high), (low, time))
+    newton = time - gap / slope
+    return np.where((low <= newton) & (newton <= high), newton, (low + high) / 2), low, high
+
+
 def _landed(
     rate: Compiled, gap: Compiled, w: Floats, way: Sequence[Floats]
 ) -> tuple[Floats, Floats]:
@@ -128,10 +140,10 @@ def _landed(
     way: the states and times before, and the times after which the gap is <= 0.
     """
     x, t, h = way
-    s = h / 2
+    low, s = 0 * h, h / 2
     for _ in range(_NEWTON):
         value, slope = gap(w, _step(rate, w, x, t, s)[0], t + s)
-        s = np.clip(s - value / slope, 0, h)
+        s, low, h = closer(s, value, slope, low, h)
     return _step(rate, w, x, t, s)[0], t + s
 
 

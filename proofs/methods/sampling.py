@@ -10,7 +10,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from proofs.methods.flows import AT_ONCE, Flown, pace, phase_speeds
+from proofs.methods.flows import AT_ONCE, Flown, closer, pace, phase_speeds
 from proofs.trusted.kernel.composition import Composition
 from proofs.trusted.kernel.expression import Tape
 from proofs.trusted.kernel.flight import Flight
@@ -26,7 +26,7 @@ _BITS = 64  # of periods
 _STEP, _LONGEST = 1 / 32, 64.0  # of a flight
 _PERIODS = 8  # by so much more steps may be shorter than flights, where phases are fast
 _TOGETHER, _FEWEST, _MOST = 8192, 128, 2048  # gaps of all flights at once; steps of each
-_NEWTON = 4
+_NEWTON = 16  # a flight may be a thousandth of a step, and he halves what is left, first
 _JUST = 1e-12  # a part of a period by which an angle may be below 0
 _APART = 1e-6  # of points for differences
 _STARTS, _FEW = 120, 20  # points at random for a search
@@ -153,7 +153,7 @@ class Sampled:
         if not first:
             return f"{AT_ONCE}: {gap} is not > 0 right after the impact"
         if gap == str(part.walls[0]):
-            return f"at a graze, or nearly: {gap} is about 0, and so is its speed"
+            return "where the state after the impact is not defined"
         return f"at another wall than is next in their order: {gap} is 0 first"
 
     @cached_property
@@ -261,12 +261,11 @@ class Sampled:
         slope = self._function(flight.formulas, flight.gaps[0].orders[:2])
         low = np.maximum(hit - step, step / 1024)
         above, below = (slope(*x, t)[0] for t in (low, hit))
-        time = low + (hit - low) * above / (above - below)
+        time: Floats = low + (hit - low) * above / (above - below)
         for _ in range(_NEWTON):
             value, rate = slope(*x, time)
-            time = time - value / rate
-        is_near = (time > 0) & (low <= time + step) & (time <= low + 2 * step)
-        return np.where(is_near, time, np.nan)
+            time, low, hit = closer(time, value, rate, low, hit)
+        return time
 
     def _steps(self, flight: Flight) -> tuple[float, float]:
         """Return the time between two looks at the gaps, and the longest time."""

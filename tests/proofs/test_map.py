@@ -555,6 +555,18 @@ def test_derivatives_of_candidates_are_differences(name):
         assert np.abs(slopes[tame, :, k] - change[tame]).max() < 1e-4
 
 
+def test_flights_get_shorter_to_the_end_of_chatter():
+    """Each takes about half as long as that before it, down to a thousandth of a step in time."""
+    ball, (x,) = System.example("bouncing-ball"), np.array([[[5.5], [1.0]]])
+    times, slow = [], ball.at(g="1")._sampled
+    while np.isfinite(after := slow(x)).all():
+        times.append(after[0, 0] - x[0, 0])
+        x = slow.reduced(after)
+    assert len(times) > 10 and times[-1] < 1e-4
+    assert all(0.4 < b / a < 0.6 for a, b in zip(times[-8:-1], times[-7:], strict=True))
+    assert slow.undefined(slow.map, x).startswith("at once, as at rest or after chatter")
+
+
 # -- the command -----------------------------------------------------------------------------------
 
 
@@ -590,6 +602,12 @@ def test_the_time_is_over(capsys):
     assert time.monotonic() - began < 1.7
     said = capsys.readouterr().out
     assert said.count("stopped after 0.7 seconds, as asked") == 2 and "points at random" not in said
+
+
+def test_names_of_motions_are_respelled():
+    assert System(tomllib.loads(WEDGE)).respelled()[0] == "In what follows `x_` is X, `y_` is Y."
+    flow = System(tomllib.loads('flow = "validated"' + FAST.replace("y", "Y")))
+    assert flow.respelled()[0] == "In what follows `y_` is Y."
 
 
 @pytest.mark.slow
