@@ -40,15 +40,18 @@ Solvers = Mapping[Unknowns, Callable[[Unknowns], dict[str, str]]]  # expressions
 
 
 def enclose(formula: str, digits: int, **point: Fraction) -> Range:
-    """Enclose a formula at a point: decimal bounds of so many significant digits."""
+    """Enclose a formula at a point: decimal bounds of so many significant digits, or of 0."""
     formulas = on_tape(trees.formula(formula))
     box = point_box([point.get(name, Fraction(0)) for name in formulas.variables])
+    ends = None
     for (value,) in tried(lambda bits: formulas.values(enclosed(box, bits))):
-        low, high = value.range
+        low, high = ends = value.range
         if (high - low) * 10 ** (digits + SPARE_DIGITS) <= abs(low):
-            lower, upper = map(Fraction, decimal_bounds(low, high, digits))
-            return lower, upper
-    raise Undecided(f"{digits} digits of {formula}")
+            break
+    if ends is None:
+        raise Undecided(f"no values of {formula} are enclosed")
+    lower, upper = map(Fraction, decimal_bounds(*ends, digits))
+    return lower, upper
 
 
 @dataclass
