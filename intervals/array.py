@@ -167,7 +167,9 @@ class IntervalArray(Shaped, Relations[Mask], Elementary):
     def intersection(self, other: Operand) -> IntervalArray | None:
         """Return the common parts, None if any is empty: `disjoint` says where."""
         rows = np.minimum(*self._pair(other))
-        return None if (rows[1] < -rows[0]).any() else self._like(extended(rows, rows))
+        return (
+            None if (rows[1] < -rows[0]).any() else self._like(np.where(np.isnan(rows), inf, rows))
+        )
 
     __and__, __or__ = intersection, hull
 

@@ -113,8 +113,8 @@ def split(boxes: Boxes, scale: Boxes, smallest: float) -> tuple[Boxes, Mask]:
     A box is cut at the middle of the side that is widest in proportion to that of `scale`, one box,
     if this proportion is above `smallest` and binary64 has a number between the ends.
     """
-    sizes = [max(float(side.wid[0]), 2.0**-1000) for side in scale]
-    widths = np.stack([x.wid / size for x, size in zip(boxes, sizes, strict=True)])
+    sizes = [min(max(float(side.wid[0]), 2.0**-1000), MAX) for side in scale]
+    widths = np.stack([np.minimum(x.wid, MAX) / size for x, size in zip(boxes, sizes, strict=True)])
     widest = np.argmax(widths, axis=0)
     inside = np.stack([(x.inf < x.mid) & (x.mid < x.sup) for x in boxes])
     chosen = np.arange(len(boxes))[:, np.newaxis] == widest
@@ -186,7 +186,7 @@ def _contracted_slices(
     low, high = (np.array(np.broadcast_to(x[:, None, None], shape)) for x in (lower, upper))
     for i in range(n):
         for k in range(1, _SLICES):
-            cut = lower[i] + k / _SLICES * (upper[i] - lower[i])
+            cut = (1 - k / _SLICES) * lower[i] + k / _SLICES * upper[i]  # a width may be inf
             low[i, i, k] = high[i, i, k - 1] = np.clip(cut, low[i, i, k - 1], upper[i])
     slices = tuple(map(IntervalArray.from_floats, low.reshape(n, -1), high.reshape(n, -1)))
     low, high = low.reshape(n, -1), high.reshape(n, -1)

@@ -39,13 +39,16 @@ from intervals.generic import meet
 from intervals.interval import Interval
 from intervals.jet import Jet
 from intervals.operators import SystemResult, contract, krawczyk
+from intervals.rounding import MAX
 from intervals.systems import Function, Roots, components
 
 _NEAR = 2.0**-18  # of a side of the given box
+_FINITE = IntervalArray.from_floats([-MAX], [MAX])
 _MOST_DERIVATIVES = 8
 Demand: TypeAlias = "tuple[Formula, list[IntervalArray]]"
 
 
+@np.errstate(over="ignore")  # widths may be inf
 def zeros(
     f: Function,
     box: Given,
@@ -101,7 +104,7 @@ def zeros(
         halves, cut = split(waiting, scale, tolerance if limit > 0 else inf)
         small.append(select(waiting, ~cut))
         waiting = halves
-    left, near = join(small), np.array([float(x.wid[0]) * _NEAR for x in scale or given])
+    left, near = join(small), np.array([min(float(x.wid[0]), MAX) * _NEAR for x in scale or given])
     wider = [tuple(map(_wider, hull, near)) for hull in _hulls(left, near)]
     for around in _round(f, join([nothing, *wider]))[0]:
         left = select(left, ~_inside(left, around))
@@ -217,7 +220,7 @@ def _rational_zero(f: Function, box: Sequence[Interval] | None) -> tuple[Interva
 
 
 def _wider(x: IntervalArray, reach: float) -> IntervalArray:
-    return x + IntervalArray.from_floats([-reach], [reach])
+    return meet(x + IntervalArray.from_floats([-reach], [reach]), _FINITE)
 
 
 def _examined(f: Formula, boxes: Boxes, zero: Boxes, near: Bounds) -> list[SystemResult]:

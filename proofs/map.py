@@ -30,6 +30,7 @@ _PARTS = Fraction(1, 4), Fraction(1, 16), Fraction(1, 64)  # of ranges that are 
 _POINTS, _PASSED, _LONGEST = 1500, 4, 8  # of a picture; periods that are looked for
 _ITERATES = 9  # of which horseshoes are asked for
 _SIDE = Fraction(-3), Fraction(3)  # of a box where points are looked for, if none is given
+_MOVING = {"branches": 1, "folds": 2, "flips": 2, "grazing": 2}  # ranges of parameters
 _HINTS = {  # what to do about a reason why a map is none
     "unknown variable": ": give it a value among the parameters",
     "respect the period": ": with one period more each value is to change by periods of its own, "
@@ -137,6 +138,15 @@ class Map:
         pairs = [f"`{each}` is {typed(each)}" for each in names if typed(each) != each]
         return [f"In what follows {', '.join(pairs)}.", ""] if pairs else []
 
+    def require(self, method: str, sides: Mapping[str, Ends]) -> None:
+        """Raise ValueError where a method is none of this map, or sides are none for it."""
+        if not hasattr(self, method):
+            raise ValueError(f"{method} is asked of systems, not of maps")
+        if method in _MOVING:
+            self._moving(sides, _MOVING[method])
+        elif sides:
+            box_of(self.variables, sides)
+
     # -- theorems ----------------------------------------------------------------------------------
 
     def image(self, **state: Ends) -> Theorem:
@@ -163,10 +173,12 @@ class Map:
         """
         return self._proved(self._cycles(period, box, near))
 
-    def stable(self, longest: int = _LONGEST, box: Box | None = None) -> Theorem:
+    def stable(self, longest: int = _LONGEST, box: Box | None = None, shortest: int = 1) -> Theorem:
         """Prove the attracting periodic orbits, up to a period, that points at random come to."""
-        if not (orbits := self._followed(longest, box).orbits):
-            raise Undecided(f"none is seen, of a period up to {longest}")
+        found = self._followed(longest, box).orbits
+        if not (orbits := [each for each in found if len(each.points) >= shortest]):
+            up_to = "" if shortest == longest else "up to "
+            raise Undecided(f"none is seen, of a period {up_to}{longest}")
         return self._proved(orbits, is_attracting=True)
 
     def horseshoe(self, box: Box | None = None, longest: int = 2) -> Theorem:

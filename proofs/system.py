@@ -98,9 +98,11 @@ class System(Map):
 
         Raises ValueError, in a sentence, where it is none, OSError where it cannot be read.
         """
-        text = Path(path).read_text("utf-8-sig")  # some editors begin it with a mark
         try:
+            text = Path(path).read_text("utf-8-sig")  # some editors begin it with a mark
             return cls(tomllib.loads(text), **parameters)
+        except UnicodeDecodeError:
+            raise GrammarError(f"{path}: this is no text in UTF-8: save it as such") from None
         except (ValueError, TypeError) as error:  # of tomllib as well
             raise GrammarError(f"{path}: {error}") from None
 
@@ -146,12 +148,7 @@ class System(Map):
         """
         from proofs.methods.tubes import prove_states
 
-        given = state.pop(self._file.time, ())
-        own, box = self._plain(state)
-        moments = [self._moment(each) for each in (*times, *([given] if given else []))]
-        if not moments:
-            raise ValueError(f"a time is expected: {self._file.time}=...")
-        file, steps = prove_states(own, moments, box)
+        file, steps = prove_states(*self._solution(times, state))
         return theorem_of(file, steps)
 
     def tube(self, until: Ends, **state: Ends) -> Any:
@@ -161,21 +158,20 @@ class System(Map):
         """
         from proofs.methods.tubes import tube
 
-        own, box = self._plain(state)
-        return tube(own, self._moment(until), box)
+        own, (moment,), box = self._solution((until,), state)
+        return tube(own, moment, box)
 
-    def _plain(self, state: Mapping[str, Ends]) -> tuple[Mapping[str, Any], tuple[Any, ...]]:
-        """Return the flow of a system, and the box of a state."""
+    def _solution(self, times: Sequence[Ends], state: Mapping[str, Ends]) -> Any:
+        """Return the flow of a system, times of it, one of which a state may name, and a box."""
+        here = [ends for each, ends in state.items() if each == self._file.time]
         own = self.functions[next(iter(self.functions))]
         if "field" not in own:
             raise ValueError('the flow is one of closed forms: give flow = "validated" to the file')
-        return own, box_of(self.variables, state)
-
-    def _moment(self, time: Ends) -> Any:
-        low, high = ends_of(time)
-        if low != high or low <= 0:
+        moments = [*map(ends_of, (*times, *here))]
+        if not moments or any(low != high or low <= 0 for low, high in moments):
             raise ValueError(f"a time {self._file.time} > 0 is expected, one number")
-        return low
+        box = {each: ends for each, ends in state.items() if each != self._file.time}
+        return own, [low for low, _ in moments], box_of(self.variables, box)
 
     def graze(self, *, wall: str = "", **state: Ends) -> Theorem:
         """Prove that a value of the variable with a range is followed by a graze, if one is found.
@@ -200,13 +196,8 @@ class System(Map):
         from proofs.methods.branches import Moving
         from proofs.methods.touches import launches
 
-        given = {each: ends for each, ends in sides.items() if each in self._file.parameters}
-        other, known = self.at(**given), exact_sides(sides)
-        box_of(self.variables, {each: sides[each] for each in sides if each not in given})
-        two = [Moving(*each) for each in known.items() if each[1][0] < each[1][1]]
-        if len(two) != 2:
-            raise ValueError("two ranges are expected, and numbers for the other variables")
-        fixed = {each: ends for each, ends in known.items() if ends[0] == ends[1]}
+        moving, fixed, given = self._launched(sides, 2)
+        two, other = [Moving(*each) for each in moving.items()], self.at(**given)
         before, reason = self._wall(wall), Undecided("no graze is seen")
         for after in self._file.next(before):
             flight = other._file.map(before, after)
@@ -217,6 +208,16 @@ class System(Map):
             except Undecided as error:
                 reason = error
         raise reason
+
+    def _launched(self, sides: Mapping[str, Ends], count: int) -> list[dict[str, Any]]:
+        """Return those of the sides that are ranges, so many, the numbers, and the parameters."""
+        given = {each: ends for each, ends in sides.items() if each in self._file.parameters}
+        box_of(self.variables, {each: sides[each] for each in sides if each not in given})
+        known = exact_sides(sides)
+        moving = {each: ends for each, ends in known.items() if ends[0] < ends[1]}
+        if len(moving) != count:
+            raise ValueError(f"{count} of the values are ranges, the others numbers")
+        return [moving, {each: known[each] for each in known if each not in moving}, given]
 
     def grazing(self, **parameters: Ends) -> Theorem:
         """Follow curves of motions that graze a wall periodically, over the second of two ranges.
@@ -247,6 +248,19 @@ class System(Map):
         before = self._wall(wall)
         contact = self._file.contact(before)
         return self._outcome("pressed", resting(self._file.map(before, before), contact), state)
+
+    def require(self, method: str, sides: Mapping[str, Ends]) -> None:
+        """Raise ValueError where a method is none of this system, or sides are none for it."""
+        if method in ("rest", "grazing"):
+            contact = self._file.contact(0)
+        if method == "flow":
+            self._solution((), sides)
+        elif method == "rest":
+            box_of([each for each in self.variables if each not in contact], sides)
+        elif method in ("graze", "touching"):
+            self._launched(sides, 1 + (method == "touching"))
+        else:
+            super().require(method, sides)
 
     def require_launches(self) -> None:
         """Raise ValueError where a gap is seen to be < 0 after all launches of the region.

@@ -14,11 +14,10 @@ if __name__ == "__main__":
 import json
 import re
 from argparse import ArgumentTypeError, Namespace
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from fractions import Fraction
 from functools import partial
-from pathlib import Path
 from time import monotonic
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeVar
@@ -29,7 +28,7 @@ from proofs.methods.ends import Ends
 from proofs.methods.grammar import as_typed
 from proofs.shell.backstop import Overrun, within
 from proofs.shell.cli import Parser, heard, number, progress, share, whole
-from proofs.shell.files import write_files
+from proofs.shell.files import write_files, write_target
 from proofs.shell.screen import say
 from proofs.system import System
 from proofs.theorem import Theorem
@@ -43,75 +42,35 @@ _MOST = 12  # theorems of an answer on the screen
 _ASKED = ("orbits:1", "orbits:2", "stable", "horseshoe")
 T = TypeVar("T")
 _NAME = r"[A-Za-z]\w*"
-_SIDE, _STATE = rf"{_NAME}=[^:,]+:[^:,]+", rf"{_NAME}=[^:,]+(:[^:,]+)?"
+_STATE = rf"{_NAME}=[^:,]+(:[^:,]+)?"
 
 
-class Question(NamedTuple):
-    """What can be asked: its statement, of the number N where it has one, and what follows it."""
-
-    statement: str
-    example: str
-    more: str  # a regular expression
-
-
-_QUESTIONS = {
-    "orbits": Question("periodic orbits of the least period N exist", "orbits:2", "[1-9][0-9]?"),
-    "all": Question(
-        "the periodic orbits in the region of a formula whose period divides N, and no others",
-        "all:2",
-        "[1-9][0-9]?",
-    ),
-    "stable": Question("an attracting periodic orbit exists", "stable", ""),
-    "horseshoe": Question(
-        "one of the first N iterates of the map has a full shift on two symbols",
-        "horseshoe:2",
-        "[1-9]?",
-    ),
-    "image": Question("where the map takes these states", "image:X=A,Y=B:C", _STATE),
-    "trapping": Question(
-        "the map takes this box into its interior: there is an attractor in it",
-        "trapping:X=A:B,Y=C:D",
-        _SIDE,
-    ),
-    "flow": Question("where the solutions are at a time", "flow:T=10,X=A,Y=B:C", _STATE),
-    "impact": Question(
-        "it is known what comes after these states: an impact, none ever, or no flight",
-        "impact:X=A,Y=B:C",
-        _STATE,
-    ),
-    "graze": Question(
-        "a value of the variable with a range is followed by a graze", "graze:X=A,Y=B:C", _STATE
-    ),
-    "touching": Question(
-        "curves of launches that are followed by a graze, over the second range",
-        "touching:X=A,Y=B:C,P=D:E",
-        _STATE,
-    ),
-    "rest": Question(
-        "in contact with the wall no flight begins, at these states", "rest:X=A:B", _STATE
-    ),
-    "branches": Question(
-        "branches of fixed points over this range of a parameter", "branches:P=A:B", _SIDE
-    ),
-    "folds": Question(
-        "curves of fixed points with the multiplier 1, over the second range",
-        "folds:P=A:B,Q=C:D",
-        _SIDE,
-    ),
-    "flips": Question(
-        "curves of fixed points with the multiplier -1, over the second range",
-        "flips:P=A:B,Q=C:D",
-        _SIDE,
-    ),
-    "grazing": Question(
-        "curves of motions that graze a wall periodically, over the second range",
-        "grazing:P=A:B,Q=C:D",
-        _SIDE,
-    ),
+_QUESTIONS = {  # how each is asked, and its statement, of the number N where it has one
+    example.partition(":")[0]: (example, statement)
+    for example, _, statement in (
+        line.partition(" ")
+        for line in """\
+orbits:2 periodic orbits of the least period N exist
+all:2 the periodic orbits in the region of a formula whose period divides N, and no others
+stable:2 an attracting periodic orbit exists
+horseshoe:2 one of the first N iterates of the map has a full shift on two symbols
+image:X=A,Y=B:C where the map takes these states
+trapping:X=A:B,Y=C:D the map takes this box into its interior: there is an attractor in it
+flow:T=10,X=A,Y=B:C where the solutions are at a time
+impact:X=A,Y=B:C it is known what comes after these states: an impact, none ever, or no flight
+graze:X=A,Y=B:C a value of the variable with a range is followed by a graze
+touching:X=A,Y=B:C,P=D:E curves of launches that are followed by a graze, over the second range
+rest:X=A:B in contact with the wall no flight begins, at these states
+branches:P=A:B branches of fixed points over this range of a parameter
+folds:P=A:B,Q=C:D curves of fixed points with the multiplier 1, over the second range
+flips:P=A:B,Q=C:D curves of fixed points with the multiplier -1, over the second range
+grazing:P=A:B,Q=C:D curves of motions that graze a wall periodically, over the second range
+""".splitlines()
+    )
 }
-_USUAL = {"horseshoe": 2}  # the number N, where none is given
+_USUAL = {"orbits": "1", "stable": "", "horseshoe": "2"}  # the number N, where none is given
 _METHODS = {"all": "periodic_orbits"}  # of other names than the questions
-_ASKABLE = ", ".join(each.example for each in _QUESTIONS.values())
+_ASKABLE = ", ".join(example for example, _ in _QUESTIONS.values())
 EPILOG = """\
 exit status: 0 all that is asked is proved; 1 something is undecided; 2 no system, or no file
 
@@ -143,8 +102,8 @@ class Answer(NamedTuple):
     def statement(self) -> str:
         """The question as a sentence."""
         kind, _, number = self.id.partition(":")
-        number = number or str(_USUAL.get(kind, ""))
-        return re.sub(r"\bN\b", number, _QUESTIONS[kind].statement)
+        least = f", of the least period {number}" if kind == "stable" and number else ""
+        return re.sub(r"\bN\b", number or _USUAL.get(kind, ""), _QUESTIONS[kind][1]) + least
 
     @property
     def file(self) -> str:
@@ -162,24 +121,18 @@ def main(arguments: list[str] | None = None) -> int:
         if system is None:
             parser: Parser = options.parser
             parser.error(f"{late}, before the motion was solved: give its `form`")
+        if options.out:
+            options.out.mkdir(parents=True, exist_ok=True)
         system.effort, answers = options.effort, []
         for asked in options.ask or _ASKED:
             tell(asked)
-            try:
-                answer = _within(until, partial(_answer, system, asked))
-            except ValueError as error:
-                options.parser.error(str(error))
+            answer = _within(until, partial(_answer, system, asked))
             answers.append(answer or Answer(asked, None, late))
         tell("floating point")
         seen = _within(until, system.seen) if heard(options) else None
     if options.out:
         _write(options, system, answers)
-    if options.json:
-        text = render(_machine(system, answers))
-        if options.json == "-":
-            print(text, end="")
-        else:
-            Path(options.json).write_text(text, "utf-8")
+    write_target(options.parser, options.json, lambda: render(_machine(system, answers)))
     if heard(options):
         for line in (*system.respelled(), *_told(answers, seen or [late])):
             say(line)
@@ -206,7 +159,7 @@ def _options(arguments: list[str] | None) -> Namespace:
     parser.add_argument("--figure", action="store_true", help="draw it as DIR/figure.svg, too")
     share(parser, "--out", "--json", "--quiet")
     options = parser.parse_args(arguments)
-    options.parser = parser
+    options.parser, options.questions = parser, options.ask or ()
     if options.seconds <= 0:
         parser.error(f"some seconds are expected, not {show(options.seconds)}")
     if options.figure and not options.out:
@@ -248,14 +201,15 @@ def _pair(text: str) -> tuple[str, str]:
 
 def _question(text: str) -> str:
     kind, _, more = text.partition(":")
-    if kind == "orbits" and not more:
-        return "orbits:1"
     if kind not in _QUESTIONS:
         raise ArgumentTypeError(f"{_ASKABLE} can be asked, not {text[:40]!r}")
-    question = _QUESTIONS[kind]
-    if not re.fullmatch(rf"{question.more}(,{question.more})*" if question.more else "", more):
-        raise ArgumentTypeError(f"{text[:40]!r} is no question: ask as in {question.example}")
-    return text.rstrip(":")
+    example, _ = _QUESTIONS[kind]
+    form = (
+        rf"{_STATE}(,{_STATE})*" if "=" in example else "[1-9]" if kind[0] == "h" else "[1-9]\\d?"
+    )
+    if not (re.fullmatch(form, more, re.ASCII) or (kind in _USUAL and not more)):
+        raise ArgumentTypeError(f"{text[:40]!r} is no question: ask as in {example}")
+    return "orbits:1" if text in ("orbits", "orbits:") else text.rstrip(":")
 
 
 def _ends(text: str) -> str | tuple[str, str]:
@@ -270,9 +224,8 @@ def subject(options: Namespace, ranges: Mapping[str, Ends] = MappingProxyType({}
     """
     if sum(map(bool, (options.file, options.example, options.map))) != 1:
         options.parser.error("one of FILE, --example and --map is expected")
-    values: dict[str, Any] = {name: _ends(value) for name, value in options.set or ()}
-    values |= ranges
     try:
+        values: dict[str, Any] = {**_values(options.set or ()), **ranges}
         if options.map:
             made = Map(*options.map, periods=dict(options.period or ()), **values)
         elif options.example:
@@ -283,19 +236,31 @@ def subject(options: Namespace, ranges: Mapping[str, Ends] = MappingProxyType({}
             if not isinstance(made, System):
                 raise ValueError("walls are those of a system, not of a map")
             made = made.around(*options.walls)
-        made.box |= {name: _side(value) for name, value in options.box or ()}
+        made.box |= {name: _side(ends) for name, ends in _values(options.box or ()).items()}
         made.region()
         if isinstance(made, System):
             made.require_launches()
+        for asked in getattr(options, "questions", ()):
+            kind, _, more = asked.partition(":")
+            made.require(_METHODS.get(kind, kind), _sides(more) if "=" in more else {})
     except (ValueError, TypeError) as error:
         options.parser.error(str(error))
     return made
 
 
-def _side(text: str) -> tuple[str, str]:
-    ends = _ends(text)
+def _values(pairs: Iterable[tuple[str, str]]) -> dict[str, str | tuple[str, str]]:
+    """Return numbers, or both ends, by their names; each name is given once."""
+    values: dict[str, str | tuple[str, str]] = {}
+    for name, text in pairs:
+        if name in values:
+            raise ValueError(f"{name} is given twice: a range is {name}=LOW:HIGH")
+        values[name] = _ends(text)
+    return values
+
+
+def _side(ends: str | tuple[str, str]) -> tuple[str, str]:
     if isinstance(ends, str):
-        raise ValueError(f"LOW:HIGH is expected, not {text[:40]!r}")
+        raise ValueError(f"LOW:HIGH is expected, not {ends[:40]!r}")
     return ends
 
 
@@ -304,24 +269,26 @@ def _answer(system: Map, asked: str) -> Answer:
         return Answer(asked, _ask(system, asked), "")
     except Undecided as error:
         why = as_typed(str(error))
+    except ValueError as error:
+        return Answer(asked, None, str(error))
     part = system.narrower(lambda other: _ask(other, asked)) if system.ranges else ""
     return Answer(asked, None, why + f"; narrower ranges do: {part}" * bool(part))
 
 
 def _ask(system: Map, asked: str) -> Theorem:
     kind, _, more = asked.partition(":")
-    method: Callable[..., Theorem] | None = getattr(system, _METHODS.get(kind, kind), None)
-    if method is None:
-        raise ValueError(f"{kind} is asked of systems, not of maps")
+    method: Callable[..., Theorem] = getattr(system, _METHODS.get(kind, kind))
     if kind == "all":
         return method(int(more), system.box)
     if kind == "horseshoe":
         return method(longest=int(more or _USUAL[kind]))
-    if kind == "orbits":
-        return method(int(more))
-    return method(
-        **{name: _ends(value) for name, value in map(_pair, filter(None, more.split(",")))}
-    )
+    if kind == "stable":
+        return method(int(more), shortest=int(more)) if more else method()
+    return method(**_sides(more)) if "=" in more else method(int(more))
+
+
+def _sides(more: str) -> dict[str, str | tuple[str, str]]:
+    return _values(map(_pair, more.split(",")))
 
 
 def _told(answers: Sequence[Answer], seen: Sequence[str]) -> Iterator[str]:
@@ -359,10 +326,7 @@ def _machine(system: Map, answers: Sequence[Answer]) -> dict[str, Any]:
 def _write(options: Namespace, system: Map, answers: Sequence[Answer]) -> None:
     for answer in answers:
         if answer.theorem is not None:
-            try:
-                answer.theorem.save(options.out / answer.file)
-            except FileExistsError as error:
-                options.parser.error(str(error))
+            answer.theorem.save(options.out / answer.file)
     if options.figure:
         try:
             from proofs.report.figures.portrait import portrait

@@ -218,7 +218,7 @@ def _power(node: ast.BinOp, text: str) -> ast.expr:
     """Return a power with an integer exponent other than 0, or with roots."""
     value = _number(node.right)
     if value is None:
-        raise GrammarError("an exponent is a number; write exp(b*log(a))")
+        raise GrammarError("an exponent is a number; write a^b as exp(b*log(a))")
     base = ast.unparse(node.left)
     if value.denominator > 2:
         raise GrammarError("an exponent is a multiple of 1/2")

@@ -39,7 +39,7 @@ def closed_form(
         forced = right.subs(dict.fromkeys(rates, 0)) != 0
         hint = _HINT + ("undetermined_coefficients" if forced else "homogeneous")
         general = sympy.dsolve(sympy.Eq(y.diff(t, n), moving), y, hint=hint).rhs
-    except (NotImplementedError, ValueError, TypeError):
+    except (NotImplementedError, ValueError, TypeError, AssertionError):  # the last of y/0
         raise Undecided(f"sympy finds no closed form of {name}") from None
     constants = sorted(general.free_symbols - right.free_symbols - {t}, key=str)
     conditions = [

@@ -45,8 +45,9 @@ def _name(motion: str, order: int) -> str:
 def _named(text: str, time: str, orders: Mapping[str, int]) -> str:
     def name(match: re.Match[str]) -> str:
         motion, order = match[1], match[2].count(",")
-        if order >= orders.get(motion, order + 1):
-            raise GrammarError(f"{motion}{chr(39) * order} is no state: its equation gives it")
+        if order >= orders.get(motion, 0):
+            why = "its equation gives it" if motion in orders else f"no motion is {motion}"
+            raise GrammarError(f"{motion}{chr(39) * order} is no state: {why}")
         return _name(motion, order)
 
     return re.sub(rf"\bD\((\w+)((?:, {time})+)\)", name, text)

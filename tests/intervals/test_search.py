@@ -1,5 +1,6 @@
 """Branch and bound: signs, ranges and zeros of functions for which these are known."""
 
+import sys
 import time
 from fractions import Fraction
 from functools import partial
@@ -71,6 +72,15 @@ def test_only_binary64_boxes_are_taken():
     for function in (sign_of, range_of, zeros):
         with pytest.raises(ValueError, match="binary64"):
             function(lambda x: x - 2, third)
+
+
+def test_boxes_as_wide_as_binary64():
+    """Widths are infinite: no error, no warning, and all boxes with a zero are there."""
+    wide = [Interval(-Fraction(sys.float_info.max), Fraction(sys.float_info.max))] * 2
+    assert outcomes(zeros(lambda x, y: [x * x - 2, x - y], wide)) == [Roots.UNIQUE] * 2
+    for f in (lambda x, y: [x * y, x - y], lambda x, y: [x.sin(), y]):
+        near = [r for r in zeros(f, wide, limit=500) if all(x.contains_zero() for x in r.box)]
+        assert near
 
 
 # -- zeros -----------------------------------------------------------------------------------------

@@ -73,7 +73,7 @@ def _log1(z: Enclosure) -> Enclosure:
 def exp(x: Enclosure) -> Enclosure:
     """Enclose exp X for |X| < 64; exp(x + w) <= exp(x) (1 + w + w^2) for 0 <= w <= 1."""
     if max(abs(x.lo), abs(x.hi)) >> x.bits >= 64:
-        raise Unproved("exponent out of range")
+        raise Unproved("exp of what may be 64 or more, or -64 or less")
     low, high = _exp(x.lo, x.bits)
     width = x.hi - x.lo
     if width >> (x.bits >> 1) == 0:  # w^2 is at most a unit
