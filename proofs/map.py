@@ -96,6 +96,8 @@ class Map:
         other = copy(self)
         function = self.functions[self.function]
         known = {**function.get("parameters", {}), **optional(parameters, {}).get("parameters", {})}
+        if unused := sorted({*known} - {*function.get("parameters", {})}):
+            raise GrammarError(f"the parameter {typed(unused[0])} is in none of the formulas")
         other._begin({self.function: {**function, "parameters": known}}, self.function)
         other.box, other.effort = dict(self.box), self.effort
         return other
@@ -292,7 +294,8 @@ class Map:
         from proofs.methods.newton import prove_orbits
 
         file = self._derivation()
-        theorem = theorem_of(file, prove_orbits(file, self.function, cycles))
+        work = int(DEFAULT * min(self._share, 1))
+        theorem = theorem_of(file, prove_orbits(file, self.function, cycles, work))
         if not is_attracting:
             return theorem
         kept = [each for each in file.steps if file.known[each].stability == "attracting"]

@@ -168,7 +168,9 @@ class System(Map):
         if "field" not in own:
             raise ValueError('the flow is one of closed forms: give flow = "validated" to the file')
         moments = [*map(ends_of, (*times, *here))]
-        if not moments or any(low != high or low <= 0 for low, high in moments):
+        if not moments:
+            raise ValueError(f"a time is expected: {self._file.time}=...")
+        if any(low != high or low <= 0 for low, high in moments):
             raise ValueError(f"a time {self._file.time} > 0 is expected, one number")
         box = {each: ends for each, ends in state.items() if each != self._file.time}
         return own, [low for low, _ in moments], box_of(self.variables, box)
@@ -216,7 +218,8 @@ class System(Map):
         known = exact_sides(sides)
         moving = {each: ends for each, ends in known.items() if ends[0] < ends[1]}
         if len(moving) != count:
-            raise ValueError(f"{count} of the values are ranges, the others numbers")
+            wanted = "two ranges are" if count == 2 else "one range is"
+            raise ValueError(f"{wanted} expected, and numbers for the other variables")
         return [moving, {each: known[each] for each in known if each not in moving}, given]
 
     def grazing(self, **parameters: Ends) -> Theorem:

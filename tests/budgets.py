@@ -25,7 +25,7 @@ BUDGETS = {
     "proofs/shell": 1_465,
     "proofs/benchmark": 1_800,
     "proofs/stress": 1_150,
-    "tests": 44_665,
+    "tests": 44_670,
     "words of the docs": 12_000,  # of those that are written by hand, the README with them
     "rules outside the kernel": 17,
     "loose modules": 9,  # of the package proofs

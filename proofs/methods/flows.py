@@ -18,7 +18,7 @@ Compiled = Callable[..., Any]
 
 _ROW = (2, 4, 6, 8, 10, 12)  # midpoint rules of a step; exact to the order 12
 _EXACT, _FAR = 1e-11, 1e4  # the error of a step, as a part of states; where they are lost
-_FIRST, _SHORTEST, _LONGEST, _LATEST = 1 / 512, 1 / 64, 1 / 4, 32.0
+_FIRST, _SHORTEST, _LONGEST, _LATEST = 1 / 512, 1 / 64, 1 / 4, 64.0
 _PACE, _PERIODS = 4, 8  # the speed of a phase from which steps are shorter; they more than times
 _NEWTON = 5
 AT_ONCE = "at once, as at rest or after chatter"

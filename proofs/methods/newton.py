@@ -152,16 +152,18 @@ def _settled(sampled: Sampled, x: Floats, steps: int) -> Floats:
     return x
 
 
-def prove_orbits(file: Derivation, function: str, cycles: Sequence[Cycle]) -> list[str]:
+def prove_orbits(
+    file: Derivation, function: str, cycles: Sequence[Cycle], work: int = DEFAULT
+) -> list[str]:
     """Add steps `periodic-orbit` about those orbits for which they are concluded.
 
-    Each in no more work than a check has by default. Raises Undecided where there is none, with the
-    last reason.
+    Each in some work at the most, by default that of a check. Raises Undecided where there is none,
+    with the last reason.
     """
     steps, reason = [], "no isolated one is seen"
     for cycle in cycles:
         try:
-            with metered(DEFAULT):
+            with metered(work):
                 steps.append(_prove_orbit(file, function, cycle))
         except (Unproved, Exhausted) as error:
             why = "it takes too long to prove" if isinstance(error, Exhausted) else error

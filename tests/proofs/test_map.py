@@ -102,6 +102,7 @@ def test_angles():
         (lambda: Map("r*x", variables=["x"]), "r has no value"),
         (lambda: Map("2x"), r"write \* for a product"),
         (lambda: Map("x", Y="1"), "the parameter Y is in none of the formulas"),
+        (lambda: Map("x").at(r="1"), "the parameter r is in none of the formulas"),
         (lambda: Map("x*y_", variables=["x"]), "'y_' is no name"),
         (lambda: Map("R*x", R="3,9"), "R: not a number: '3,9': write a decimal point"),
         (lambda: Map("1 - |x|"), r"character 5 .* write abs\("),
@@ -622,8 +623,8 @@ def test_what_comes_next_is_asked(capsys):
         ("impact:phi=1", "a value for each variable is expected: phi=..., v=..."),
         ("impact:phi=1,v=2,v=3", "v is given twice"),
         ("trapping:phi=1:2,v=x", "v: not a number: 'x'"),
-        ("graze:phi=1,v=2", "1 of the values are ranges, the others numbers"),
-        ("touching:phi=1,v=0:3", "2 of the values are ranges, the others numbers"),
+        ("graze:phi=1,v=2", "one range is expected, and numbers for the other variables"),
+        ("touching:phi=1,v=0:3", "two ranges are expected, and numbers for the other variables"),
         ("branches:q=1:2", "q is none of the parameters g, e"),
         ("flow:t=1,phi=1,v=2", "the flow is one of closed forms"),
         ("rest:phi=0:1", "no 'rest'"),
@@ -679,6 +680,13 @@ def test_all_orbits_and_images_are_asked_of_the_command(capsys):
 def test_what_becomes_of_points_is_said(arguments, told, capsys):
     main([*arguments, "--ask", "orbits:1", "--effort", "1"])
     assert told in capsys.readouterr().out
+
+
+def test_a_return_may_take_longer_than_32():
+    """Van der Pol's, seven times slower: 46.6."""
+    file = System.example("van-der-pol")._file.file
+    x = {"equation": "x'' = m*(1 - x^2)*x'/7 - x/49", "start": ["a", "0"]}
+    assert "of period 1 through (2.00862)" in System({**file, "motion": {"x": x}}).seen()[-1]
 
 
 def test_what_floating_point_does_not_see_is_not_said(capsys):
