@@ -306,7 +306,7 @@ class Map:
     def _cycles(
         self, period: int, box: Box | None, near: Sequence[Mapping[str, Exact]] = ()
     ) -> list[Any]:
-        from proofs.methods.newton import as_points, cycles, seeds
+        from proofs.methods.newton import as_points, cycles, returning, seeds
         from proofs.trusted.kernel.enclose import centre_of
 
         if not isinstance(period, int) or not 1 <= period <= 60:
@@ -319,6 +319,7 @@ class Map:
 
         def found() -> list[Any]:
             orbits = cycles(sampled, period, seeds(sampled, sides, count))
+            orbits = orbits or cycles(sampled, period, returning(sampled, sides, count, period))
             return sorted(orbits, key=lambda each: not each.meets(sides))
 
         return list(self._once((period, count, *sides), found))

@@ -23,6 +23,7 @@ from proofs.trusted.numbers import Range
 
 FAR = 1e6  # where points are lost
 _STEPS, _NEAR, _STILL = 12, 1e-9, 1e-13  # of Newton's method
+_WAY, _CELLS = 20, 50  # steps of points at random; of each side of their box
 _SAME = 1e-6  # the distance of points that are one
 _ALIKE = 9  # decimal places in which most starts agree with others
 _BITS = 160  # of boxes around points
@@ -133,10 +134,29 @@ def whole_periods(sampled: Sampled, apart: Floats) -> Floats:
 
 def seeds(sampled: Sampled, box: Sequence[Range], count: int, steps: int = 20) -> Floats:
     """Return points at random in a box, and where the map takes them in some steps."""
-    rng = np.random.default_rng(len(box))
-    low, high = np.array(box, float).T
-    x = low[:, None] + (high - low)[:, None] * rng.random((len(box), count))
+    x = _at_random(box, count)
     return np.concatenate([x, _settled(sampled, x, steps)], axis=1)
+
+
+@np.errstate(all="ignore")
+def returning(sampled: Sampled, box: Sequence[Range], count: int, period: int) -> Floats:
+    """Return points on the ways of points at random that come back closest in a period, apart."""
+    way = [_at_random(box, count)]
+    while len(way) <= _WAY + period:
+        way.append(sampled.reduced(sampled(way[-1])))
+    points, later = (np.concatenate(x, axis=1) for x in (way[:-period], way[period:]))
+    closest = points[:, np.argsort(distance(sampled, later.T, points.T))]
+    low, high = np.array(box, float).T[:, :, None]
+    cells = np.floor((closest - low) / (high - low) * _CELLS)
+    inside = ((cells >= 0) & (cells < _CELLS)).all(axis=0)
+    _, places = np.unique(cells[:, inside], axis=1, return_index=True)
+    return closest[:, inside][:, np.sort(places)[:count]]
+
+
+def _at_random(box: Sequence[Range], count: int) -> Floats:
+    low, high = np.array(box, float).T[:, :, None]
+    shares = np.random.default_rng(len(box)).random((len(box), count))
+    return np.asarray(low + (high - low) * shares)
 
 
 def as_points(states: Sequence[Sequence[Fraction]]) -> Floats:

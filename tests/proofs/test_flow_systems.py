@@ -118,3 +118,34 @@ def test_what_cannot_be_followed_is_a_sentence():
     motion = {"x": {"equation": "x'' = x^2 + x'^2 + 1", "start": ["a", "0"]}}
     with pytest.raises(Undecided, match=r"are followed up to the time 1\.00\d+"):
         System({**van_der_pol, "parameters": {}, "motion": motion}).impact(a="1")
+
+
+def _duffing_after_a_period(u, v, steps=4000):
+    """Two wells, by Runge and Kutta's rule."""
+
+    def rate(t, x):
+        return np.array([x[1], -0.25 * x[1] + x[0] - x[0] ** 3 + 0.3 * np.cos(t)])
+
+    x, h = np.array([u, v]), 2 * np.pi / steps
+    for t in h * np.arange(steps):
+        a = rate(t, x)
+        b = rate(t + h / 2, x + h / 2 * a)
+        c = rate(t + h / 2, x + h / 2 * b)
+        x = x + h / 6 * (a + 2 * b + 2 * c + rate(t + h, x + h * c))
+    return x
+
+
+@pytest.mark.slow
+def test_a_saddle_that_attracts_nothing_is_found_where_motions_come_back(tmp_path):
+    file = tmp_path / "wells.toml"
+    file.write_text(
+        'flow = "validated"\nvariables = ["u", "v"]\ntime = "t"\n'
+        'region = { u = ["-2", "2"], v = ["-2", "2"] }\n'
+        "[motion.x]\nequation = \"x'' = -0.25*x' + x - x^3 + 0.3*cos(t)\"\n"
+        'start = ["u", "v"]\n[end]\ntime = "2*pi"\nu = "x"\nv = "x\'"\n'
+    )
+    wells = System.read(file)
+    wells.effort = 2
+    (saddle,) = wells.orbits(1)
+    middle = [float(sum(side) / 2) for side in saddle.box]
+    assert np.allclose(_duffing_after_a_period(*middle), middle, rtol=0, atol=1e-6)
