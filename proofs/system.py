@@ -218,7 +218,7 @@ class System(Map):
         known = exact_sides(sides)
         moving = {each: ends for each, ends in known.items() if ends[0] < ends[1]}
         if len(moving) != count:
-            wanted = "two ranges are" if count == 2 else "one range is"
+            wanted = "two ranges are" if count == 2 else "one variable with a range is"
             raise ValueError(f"{wanted} expected, and numbers for the other variables")
         return [moving, {each: known[each] for each in known if each not in moving}, given]
 

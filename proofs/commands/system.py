@@ -42,7 +42,6 @@ _MOST = 12  # theorems of an answer on the screen
 _ASKED = ("orbits:1", "orbits:2", "stable", "horseshoe")
 T = TypeVar("T")
 _NAME = r"[A-Za-z]\w*"
-_STATE = rf"{_NAME}=[^:,]+(:[^:,]+)?"
 
 
 _QUESTIONS = {  # how each is asked, and its statement, of the number N where it has one
@@ -204,9 +203,11 @@ def _question(text: str) -> str:
     if kind not in _QUESTIONS:
         raise ArgumentTypeError(f"{_ASKABLE} can be asked, not {text[:40]!r}")
     example, _ = _QUESTIONS[kind]
-    form = (
-        rf"{_STATE}(,{_STATE})*" if "=" in example else "[1-9]" if kind[0] == "h" else "[1-9]\\d?"
-    )
+    pair = rf"{_NAME}=[^:,]+:[^:,]+"
+    if kind == "rest" or re.search(r"=\w+(,|$)", example):  # numbers are taken, too
+        pair += "|" + rf"{_NAME}=[^:,]+"
+    number = "[1-9]" if kind == "horseshoe" else r"[1-9]\d?"
+    form = rf"({pair})(,({pair}))*" if "=" in example else number
     if not (re.fullmatch(form, more, re.ASCII) or (kind in _USUAL and not more)):
         raise ArgumentTypeError(f"{text[:40]!r} is no question: ask as in {example}")
     return "orbits:1" if text in ("orbits", "orbits:") else text.rstrip(":")
