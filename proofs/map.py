@@ -29,6 +29,7 @@ EFFORT = 3
 _PARTS = Fraction(1, 4), Fraction(1, 16), Fraction(1, 64)  # of ranges that are too wide
 _POINTS, _PASSED, _LONGEST = 1500, 4, 8  # of a picture; periods that are looked for
 _ITERATES = 9  # of which horseshoes are asked for
+_MOST = 60  # of periods
 _SIDE = Fraction(-3), Fraction(3)  # of a box where points are looked for, if none is given
 _MOVING = {"branches": 1, "folds": 2, "flips": 2, "grazing": 2}  # ranges of parameters
 _HINTS = {  # what to do about a reason why a map is none
@@ -55,6 +56,8 @@ class Map:
         periods: Mapping[str, str] | None = None,
         **parameters: Ends,
     ) -> None:
+        if not isinstance(periods, Mapping | None):
+            raise ValueError(f"periods are as {{'x': '2*pi'}}, not {periods!r}")
         values = [canonical(text) for text in formulas]
         fields = optional(parameters, periods or {})
         given = fields.get("parameters", {})
@@ -166,18 +169,21 @@ class Map:
         return theorem_of(file, [prove_trapping(file, self.function, boxes)])
 
     def orbits(
-        self, period: int = 1, box: Box | None = None, near: Sequence[Mapping[str, Exact]] = ()
+        self,
+        period: int = 1,
+        box: Box | None = None,
+        near: Mapping[str, Exact] | Sequence[Mapping[str, Exact]] = (),
     ) -> Theorem:
         """Prove the periodic orbits of a least period that are found; there may be others.
 
-        near: states next to which they are looked for, instead of points at random in a box.
+        near: a state, or some, next to which they are looked for; else points at random in a box.
         `periodic_orbits` has all of them, for a formula.
         """
         return self._proved(self._cycles(period, box, near))
 
     def stable(self, longest: int = _LONGEST, box: Box | None = None, shortest: int = 1) -> Theorem:
         """Prove the attracting periodic orbits, up to a period, that points at random come to."""
-        found = self._followed(longest, box).orbits
+        found = self._followed(_whole(longest), box).orbits
         if not (orbits := [each for each in found if len(each.points) >= shortest]):
             up_to = "" if shortest == longest else "up to "
             raise Undecided(f"none is seen, of a period {up_to}{longest}")
@@ -190,9 +196,8 @@ class Map:
         """
         from proofs.methods.shifts import Candidates, find_horseshoe
 
-        reason = "nothing was looked at"
-        saddles: list[Any] = []
-        for power in range(1, longest + 1):
+        reason, saddles = "", list[Any]()
+        for power in range(1, _whole(longest) + 1):
             for cycle in self._cycles(power, box):
                 saddles += list(cycle.points) if cycle.is_saddle else []
             later = self._return(power)
@@ -304,18 +309,20 @@ class Map:
         return theorem_of(file, kept)
 
     def _cycles(
-        self, period: int, box: Box | None, near: Sequence[Mapping[str, Exact]] = ()
+        self,
+        period: int,
+        box: Box | None,
+        near: Mapping[str, Exact] | Sequence[Mapping[str, Exact]] = (),
     ) -> list[Any]:
         from proofs.methods.newton import as_points, cycles, returning, seeds
         from proofs.trusted.kernel.enclose import centre_of
 
-        if not isinstance(period, int) or not 1 <= period <= 60:
-            raise ValueError(f"a period is a whole number from 1 to 60, not {period!r}")
         sampled, sides = self._sampled, self.region(box)
         if near:
-            starts = as_points([centre_of(box_of(self.variables, state)) for state in near])
-            return cycles(sampled, period, starts)
-        count = int(sampled.starts * period * self._share)
+            states = [near] if isinstance(near, Mapping) else near
+            starts = as_points([centre_of(box_of(self.variables, state)) for state in states])
+            return cycles(sampled, _whole(period), starts)
+        count = int(sampled.starts * _whole(period) * self._share)
 
         def found() -> list[Any]:
             orbits = cycles(sampled, period, seeds(sampled, sides, count))
@@ -371,6 +378,12 @@ class Map:
         from proofs.methods.trapping import prove_image
 
         return theorem_of(file, [prove_image(file, function, box_of(self.variables, state))])
+
+
+def _whole(period: int) -> int:
+    if not isinstance(period, int) or not 1 <= period <= _MOST:
+        raise ValueError(f"a period is a whole number from 1 to {_MOST}, not {period!r}")
+    return period
 
 
 def theorem_of(file: Any, steps: Sequence[str]) -> Theorem:

@@ -19,13 +19,13 @@ from proofs.trusted.rules import RULES
 ROOT = Path(__file__).parents[1]
 GENERATED = ["docs/api.md", "docs/systems.md"]
 BUDGETS = {
-    "proofs": 55_100,
+    "proofs": 55_120,
     "proofs/trusted": 23_335,
     "proofs/search, proofs/motion": 7_625,
     "proofs/shell": 1_465,
     "proofs/benchmark": 1_800,
     "proofs/stress": 1_150,
-    "tests": 44_705,
+    "tests": 44_710,
     "words of the docs": 12_000,  # of those that are written by hand, the README with them
     "rules outside the kernel": 17,
     "loose modules": 9,  # of the package proofs

@@ -148,7 +148,11 @@ def _python(text: str, time: str) -> Iterator[str]:
             raise GrammarError(f"{_at(text, place)}: this is in no formula{hint}")
         number, word, primes, op = match.group("number", "name", "primes", "op")
         if before in ("number", "name", ")") and (number or word or op == "("):
-            hint = _OTHERS.get(word or "", "write * for a product")
+            power = re.search(r"([a-z]+) *(?:\^|\*\*) *(\d+) *$", text[:place])
+            hint = "write * for a product"
+            if op == "(" and power and power[1] in _KNOWN:
+                hint = f"write {power[1]}(...)^{power[2]}"
+            hint = _OTHERS.get(word or "", hint)
             raise GrammarError(f"{_at(text, place)}: {hint}")
         if number:
             yield f"({show(exact(number))})"

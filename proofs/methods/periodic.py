@@ -53,8 +53,8 @@ def prove_all_orbits(
             "one value; leave out the period of an angle, so that those that stay in one box are "
             f"found; or ask orbits:{period}, for those that are seen"
         )
-    if period < 1:
-        raise ValueError("a period is at least 1")
+    if not isinstance(period, int) or period < 1:
+        raise ValueError(f"a period is a whole number from 1 on, not {period!r}")
     if any(low == high for low, high in box):
         raise ValueError("a side of the box is a point: give it two ends")
     orbits = Orbits(file, function, period, tuple(box))

@@ -29,6 +29,8 @@ class SystemFile:
             raise GrammarError(f"unknown key {unknown[0]!r}; keys are {_listed(_HEAD | _MORE)}")
         typed = _list(file["variables"], "variables")
         self.names = {str(each): name(str(each)) for each in typed}
+        if len(self.names) < len(typed):
+            raise GrammarError("two variables have one name")
         self.state = [*self.names.values()]
         self.time = name(str(file["time"]))
         own = _table(file.get("parameters", {}), "parameters")

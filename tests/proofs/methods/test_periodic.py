@@ -59,7 +59,7 @@ def test_points_next_to_a_double_root():
 
 
 def test_a_period_is_positive():
-    with pytest.raises(ValueError, match="at least 1"):
+    with pytest.raises(ValueError, match="from 1 on"):
         Map("5*x*(1 - x)").periodic_orbits(0, LINE)
 
 
